@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Events that attach joints again, and joints that begin released."""
 
+import json
 import math
 
 import numpy
@@ -392,3 +393,24 @@ def test_a_bead_is_caught_by_a_flexible_wire(sensors, frames, method, open_balan
 def test_a_bead_beside_the_wire_is_not_caught(buckens, tmp_path):
     (tmp_path / "model.yaml").write_text(on_wire(start="3.9"))
     buckens("run", "model.yaml", "-o", "out").must(4, "event \"catch\"", "slider \"hole\" cannot be attached", "m beyond the end", "lengthen the beam")
+
+
+def test_it_holds_from_the_first_step_of_a_continued_run(buckens, tmp_path):
+    """Steps of another length are factorised for it, and take the joints that hold then."""
+    (tmp_path / "model.yaml").write_text("""
+buckens: 1
+gravity: [0, 0, -9.81]
+bodies:
+  bob: {rigid: {mass: 2 kg, inertia: [4e-3, 4e-3, 4e-3]}}
+  other: {rigid: {mass: 2 kg, inertia: [4e-3, 4e-3, 4e-3]}, at: {position: [1, 0, 0]}}
+joints: {hold: {fixed: {between: [ground, bob]}}, keep: {fixed: {between: [ground, other]}}}
+initial: {released: [hold, keep]}
+signals: {now: "t - 0.0005"}
+events: {catch: {when: now, attach: hold, tolerance: 1 mm}}
+simulation: {duration: 0.5 s, step: 1 ms}
+output: {every: 100 ms, sensors: {p: {position: bob}, f: {joint-force: hold}}}
+""")
+    buckens("run", "model.yaml", "-q", "-o", "out").must(0)
+    buckens("run", "--continue", "out", "--set", "simulation.step=0.1 ms", "--set", "simulation.duration=1 s", "-q").must(0)
+    residuals = json.loads((tmp_path / "out" / "summary.json").read_text())["residuals"]
+    assert residuals["position"] < 1e-12 and residuals["velocity"] < 1e-12

@@ -2,6 +2,8 @@
 #include "buckens/analysis/initial/after_impact.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 

@@ -142,6 +142,7 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
                                  &out.state.memory, constraints);
   const linalg::RowRank rank = metric.split(constraints.rows);
   out.rows_in_use = rank.independent;
+  out.released = out.state.memory.released;
   out.redundant_rows = rank.dependent;
   out.redundant_text = describe_redundancy(model, out.state.memory, rank.dependent);
   const model::State given = out.state;

@@ -15,6 +15,7 @@ namespace buckens::analysis {
 struct Prepared {
   model::State state;
   std::vector<int> rows_in_use;             ///< independent rows of λ
+  std::vector<char> released;               ///< joints that have let go where these were chosen
   std::vector<int> redundant_rows;          ///< those that follow from them
   std::vector<std::string> redundant_text;  ///< by joint: "hinge_2: 5 of 5 equations follow …"
   std::vector<AssemblyMove> moves;          ///< moves of the bodies by position assembly

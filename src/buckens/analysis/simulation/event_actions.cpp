@@ -50,7 +50,7 @@ void mark(std::vector<char>& marks, std::size_t count, std::size_t which, bool i
 }  // namespace
 
 EventActions::Effect EventActions::apply(const model::EventSpec& event,
-                                         const stepping::Stepper& stepper,
+                                         const std::function<const stepping::Stepper&()>& stepper,
                                          model::State& state) const {
   const model::Model& model = built_.model;
   Effect out;
@@ -68,11 +68,12 @@ EventActions::Effect EventActions::apply(const model::EventSpec& event,
   }
   if (!has_locked) return out;
   const std::vector<int> rows = rows_in_use(state);
+  const stepping::Stepper& meshes = stepper();
   const dynamics::Energy open = dynamics::energy(model, state);
-  close_gaps(model, rows, &stepper, state);
+  close_gaps(model, rows, &meshes, state);
   const dynamics::Energy closed = dynamics::energy(model, state);
   out.gained += closed.total() - open.total();
-  close_rates(model, rows, &stepper, state);
+  close_rates(model, rows, &meshes, state);
   out.lost = closed.kinetic - dynamics::energy(model, state).kinetic;
   return out;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,10 +30,10 @@ class EventActions {
     double gained = 0;
     double lost = 0;  ///< when moving joints were locked [J]
   };
-  /// @param stepper lets meshes answer impulses as its steps resolve them
+  /// @param stepper is asked where something strikes, for one whose steps tell how meshes answer
   /// @throws NumericalError if locks cannot stop the mechanism
-  Effect apply(const model::EventSpec& event, const stepping::Stepper& stepper,
-               model::State& state) const;
+  Effect apply(const model::EventSpec& event,
+               const std::function<const stepping::Stepper&()>& stepper, model::State& state) const;
 
   /// Finds the accelerations and multipliers that belong to what acts now.
   /// @throws NumericalError as settle_rigid_rows()

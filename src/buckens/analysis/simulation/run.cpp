@@ -107,7 +107,7 @@ void SimulationRun::begin_march(double start) {
   stepping::StepSettings settings = step_settings(spec_);
   settings.threads = options_.threads;
   settings.exchange = options_.exchange;
-  settings.released = prepared_->state.memory.released;
+  settings.released = prepared_->released;
   march_.emplace(built_.model, settings, prepared_->rows_in_use, march);
   steps_ = march.tolerance ? 0 : steps_taken_ + march.longest_steps;
   check_samples();
@@ -258,6 +258,9 @@ void SimulationRun::note_events(const std::vector<EventWatch::Found>& found) {
 void SimulationRun::act_on_events(std::vector<EventWatch::Found> found) {
   model::State& state = prepared_->state;
   bool has_acted = false;
+  const auto longest_stepper = [this]() -> const stepping::Stepper& {
+    return march_->longest_stepper();
+  };
   for (bool is_first = true; !found.empty(); is_first = false) {
     if (!is_first) note_events(found);
     const std::vector<double> signals = state.memory.signals;
@@ -266,8 +269,7 @@ void SimulationRun::act_on_events(std::vector<EventWatch::Found> found) {
         recording_->write_between(before_, state);
       }
       if (!event.spec->acts()) continue;
-      const EventActions::Effect effect =
-          actions_->apply(*event.spec, march_->longest_stepper(), state);
+      const EventActions::Effect effect = actions_->apply(*event.spec, longest_stepper, state);
       work_->take_event(state, effect.gained, effect.lost);
       has_acted = has_acted || event.spec->changes_motion();
     }
@@ -275,7 +277,7 @@ void SimulationRun::act_on_events(std::vector<EventWatch::Found> found) {
   }
   if (!has_acted) return;
   actions_->settle(state);
-  work_->take_event(state, 0.0, 0.0);
+  work_->restart(state);
   march_->restart(state);
   observed_at_ = -1;
 }

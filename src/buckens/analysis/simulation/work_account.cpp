@@ -68,6 +68,10 @@ void WorkAccount::take_event(const model::State& state, double gained, double lo
   work_.external += gained;
   work_.dissipated += lost;
   turnover_ += std::abs(gained) + lost;
+}
+
+void WorkAccount::restart(const model::State& state) {
+  take_event(state, 0.0, 0.0);
   for (DampingWork& mesh : meshes_) mesh.start(state);
 }
 

@@ -34,6 +34,10 @@ class WorkAccount {
   /// @param gained by springs and the like [J], @param lost in impacts [J]
   void take_event(const model::State& state, double gained, double lost);
 
+  /// To be called when the motion goes on from here with other rates and forces.
+  /// Cost: a product with K per damped mesh
+  void restart(const model::State& state);
+
   const results::WorkBalance& work() const { return work_; }
   /// What work() was before the last add().
   const results::WorkBalance& work_before() const { return work_before_; }
