@@ -70,7 +70,7 @@ def test_what_sticks_does_not_creep(sensors):
 
 
 def test_a_held_joint_does_not_turn(sensors):
-    """An arm held level for 1000 s by a thousandth more friction than it needs: 1e-9 of a turn is what a clock hand makes in 4 us."""
+    """An arm held level for 1000 s by a thousandth more friction than it needs: it turns by less than 1e-9 rad."""
     out = sensors(f"""
 buckens: 1
 gravity: [0, 0, -{G}]

@@ -5,6 +5,9 @@
 
 #include "buckens/linalg/node_kernels.h"
 
+// All functions with arguments of this kind are inlined.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 // Included by the sources node_kernels_*.cpp only, each compiled for another instruction set: see
 // panel_kernels_impl.h.
 namespace buckens::linalg {

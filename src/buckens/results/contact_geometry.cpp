@@ -80,9 +80,9 @@ void add_shape(const model::Model& model, const std::string& name, const model::
   drawn.length = 2.0 * shape.half_length;
   drawn.size = 2.0 * shape.half;
   drawn.q = turn_of(model, id);
-  const bool is_drawn = shape.mesh && id.body != model::kGround &&
-                        model.bodies[static_cast<std::size_t>(id.body)].is_flexible();
-  if (is_drawn) return;
+  const bool is_drawn_already = shape.mesh && id.body != model::kGround &&
+                                model.bodies[static_cast<std::size_t>(id.body)].is_flexible();
+  if (is_drawn_already) return;
   if (shape.mesh) add_mesh_of(*shape.mesh, drawn);
   out.shapes.push_back(std::move(drawn));
 }
