@@ -355,14 +355,9 @@ void Stepper::compute_round(const model::State& state, int round, StepReport& re
   }
   const auto solved = Clock::now();
   if (round == 0) {
-    const bool is_foretold = forecasts_ && forecast_.foretells(state);
-    // How friction grows with reactions is part of the matrix, and changes with their directions.
-    if (is_foretold) {
-      Forecast::foretell_multipliers(state, forecast_.parabola(state), lambda_);
-    }
     newton_->prepare(bodies_, state.t);
     // After it: matrix and directions belong to where the last accelerations lead.
-    if (is_foretold) forecast_.apply(state, bodies_, lambda_);
+    if (forecasts_ && forecast_.foretells(state)) forecast_.apply(state, bodies_, lambda_);
     newton_->iterate(bodies_, state.t, lambda_, report);
   } else {
     newton_->iterate_on(bodies_, state.t, lambda_, report);
