@@ -20,9 +20,10 @@ constexpr int kMostSweeps = 1000;
 constexpr int kMostAgreements = 200;
 // Changes of impulses along surfaces by this share of the largest one.
 constexpr double kSame = 1e-12;
-// Changes of rates by this share of what impulses do to them. How places share an impulse is known
-// to less, which no rate feels.
-constexpr double kSameRates = 1e-10;
+// Changes of rates by this share of what impulses do to them, and those that may be rounding where
+// they do not fall any more. How places share an impulse is known to less, which no rate feels.
+constexpr double kSameRates = 1e-14;
+constexpr double kRoundingOfRates = 1e-10;
 constexpr int kHalvings = 200;
 // Answers of a slip by this share of the largest answer of all.
 constexpr double kNoAnswerOfSlip = 1e-12;
@@ -90,14 +91,22 @@ Vector solve_impact(const Matrix& D, const Vector& b, Eigen::Index num_across,
   const Matrix pressing = D(across, across);
   P(across) = solve_complementarity(pressing, b(across));
   if (slips.empty()) return P;
+  double change_before = HUGE_VAL;
   for (int round = 0; round < kMostAgreements; ++round) {
     const bool has_settled = solve_slips(D, b, slips, P);
     const Vector before = P(across);
     const Vector asked = b(across) - D(across, along) * P(along);
     P(across) = solve_complementarity(pressing, asked);
-    const Vector change = D(Eigen::all, across) * (P(across) - before);
     const double size = (D.cwiseAbs() * P.cwiseAbs()).maxCoeff();
-    if (has_settled && change.cwiseAbs().maxCoeff() <= kSameRates * size) return P;
+    const double change =
+        (D(Eigen::all, across) * (P(across) - before)).cwiseAbs().maxCoeff() / size;
+    const bool is_rounding = change <= kRoundingOfRates &&
+                             (change >= 0.5 * change_before || round + 1 == kMostAgreements);
+    if (has_settled && (!(change > kSameRates) || is_rounding)) {
+      solve_slips(D, b, slips, P);
+      return P;
+    }
+    change_before = change;
   }
   throw StepFailure(
       "no impulses satisfy all rigid contacts with friction that are struck at once: friction "
