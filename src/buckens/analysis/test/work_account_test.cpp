@@ -167,13 +167,17 @@ TEST(WorkAccount, DampingNeedsNoProductsWithStiffness) {
   const Falling balanced = fall(method, 1e-4, true);
   EXPECT_EQ(balanced.products, 1);  // at the start
   const Falling direct = fall(method, 1e-4, false);
-  EXPECT_EQ(direct.products, 1001);
+  EXPECT_EQ(direct.products, 1000);
   EXPECT_GT(direct.dissipated, 0.0);
-  // Both quadratures are of the order h²: their difference falls by four.
-  const double coarse = fall(method, 2e-4, true).dissipated - fall(method, 2e-4, false).dissipated;
+  const double coarse_direct = fall(method, 2e-4, false).dissipated;
+  const double fine_direct = fall(method, 5e-5, false).dissipated;
+  EXPECT_NEAR((direct.dissipated - coarse_direct) / (fine_direct - direct.dissipated), 4, 0.05);
+  // The two differ by vibrations that these steps do not resolve, ω h = 7, and whose rates and
+  // displacements tell different velocities: by 2.5 less with each halving, 3.0 at 12 µs.
+  const double coarse = fall(method, 2e-4, true).dissipated - coarse_direct;
   const double fine = balanced.dissipated - direct.dissipated;
-  EXPECT_LE(std::abs(fine), 1e-3 * direct.dissipated);
-  EXPECT_NEAR(coarse / fine, 4, 0.8);
+  EXPECT_LE(std::abs(fine), 1e-4 * direct.dissipated);
+  EXPECT_GT(coarse / fine, 2.5);
 }
 
 }  // namespace
