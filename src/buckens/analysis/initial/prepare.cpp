@@ -104,7 +104,7 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
   Prepared out;
   out.notes = model.notes;
   out.state = model::placed_state(model);
-  out.state.memory.released = released_at_start(built);
+  out.released = out.state.memory.released = released_at_start(built);
   bool is_closed = false;
   try {
     assemble_positions(model, metric, out.state);
@@ -142,7 +142,6 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
                                  &out.state.memory, constraints);
   const linalg::RowRank rank = metric.split(constraints.rows);
   out.rows_in_use = rank.independent;
-  out.released = out.state.memory.released;
   out.redundant_rows = rank.dependent;
   out.redundant_text = describe_redundancy(model, out.state.memory, rank.dependent);
   const model::State given = out.state;
