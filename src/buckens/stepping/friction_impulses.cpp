@@ -18,8 +18,6 @@ namespace {
 
 constexpr int kMostSweeps = 1000;
 constexpr int kMostAgreements = 200;
-// Changes of impulses along surfaces by this share of the largest one.
-constexpr double kSame = 1e-12;
 // Changes of rates by this share of what impulses do to them, and those that may be rounding where
 // they do not fall any more. How places share an impulse is known to less, which no rate feels.
 constexpr double kSameRates = 1e-14;
@@ -61,24 +59,30 @@ Vector rub(const Matrix& B, const Vector& v, double most, double none) {
   return modes.eigenvectors() * (slides * (most / slides.norm()));
 }
 
-/// Impulses along the surfaces for given ones across them. @return whether they have settled
+/// What impulses do to the rates at most.
+double size_of_rates(const Matrix& D, const Vector& P) {
+  return (D.cwiseAbs() * P.cwiseAbs()).maxCoeff();
+}
+
+/// Impulses along the surfaces for given ones across them. @return whether the rates have settled
 bool solve_slips(const Matrix& D, const Vector& b, const std::vector<ImpactSlip>& slips,
                  Vector& P) {
   const double none = kNoAnswerOfSlip * D.diagonal().maxCoeff();
+  double change = 0.0, size = 0.0;
+  Vector last = P;
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-    double change = 0.0;
     for (const ImpactSlip& slip : slips) {
       const auto own = Eigen::seqN(slip.first, slip.count);
       const Matrix B = D(own, own);
-      const Vector before = P(own);
-      const Vector v = D(own, Eigen::all) * P - b(own) - B * before;
-      const Vector now = rub(B, v, slip.coefficient * P[slip.across], none);
-      P(own) = now;
-      change = std::max(change, (now - before).cwiseAbs().maxCoeff());
+      const Vector v = D(own, Eigen::all) * P - b(own) - B * P(own);
+      P(own) = rub(B, v, slip.coefficient * P[slip.across], none);
     }
-    if (change <= kSame * P.cwiseAbs().maxCoeff()) return true;
+    change = (D * (P - last)).cwiseAbs().maxCoeff();
+    size = size_of_rates(D, P);
+    if (change <= kSameRates * size) return true;
+    last = P;
   }
-  return false;
+  return change <= kRoundingOfRates * size;
 }
 
 }  // namespace
@@ -97,9 +101,8 @@ Vector solve_impact(const Matrix& D, const Vector& b, Eigen::Index num_across,
     const Vector before = P(across);
     const Vector asked = b(across) - D(across, along) * P(along);
     P(across) = solve_complementarity(pressing, asked);
-    const double size = (D.cwiseAbs() * P.cwiseAbs()).maxCoeff();
     const double change =
-        (D(Eigen::all, across) * (P(across) - before)).cwiseAbs().maxCoeff() / size;
+        (D(Eigen::all, across) * (P(across) - before)).cwiseAbs().maxCoeff() / size_of_rates(D, P);
     const bool is_rounding = change <= kRoundingOfRates &&
                              (change >= 0.5 * change_before || round + 1 == kMostAgreements);
     if (has_settled && (!(change > kSameRates) || is_rounding)) {
