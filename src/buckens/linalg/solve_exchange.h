@@ -39,6 +39,7 @@ class SolveExchange {
 
   /// rows.for_pieces(pool, f), together with other participants that ask for the same `table`: each
   /// piece for one after the other, so that what they read of the table is read from memory once.
+  /// All that ask for one table have the same rows and pieces, and `f` does not throw.
   void for_pieces(const void* table, const RowParts& rows, TaskPool* pool, PieceFunction f);
 
   /// What participants have in common besides factors. Call from them, or while none runs.

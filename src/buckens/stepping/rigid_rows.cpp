@@ -3,6 +3,11 @@
 
 namespace buckens::stepping {
 
+namespace {
+// Rigid rows with less of their own than this share hold what others hold.
+constexpr double kTheSame = 1e-11;
+}  // namespace
+
 RigidRows::RigidRows(const model::Model& model) {
   for (const model::Load& load : model.loads) {
     if (load.rigid_row >= 0) first_states_.push_back(load.first_state);
@@ -37,6 +42,15 @@ bool RigidRows::have_changed() const {
     if (stands_[k].regime != regimes_at_start_[k]) return true;
   }
   return false;
+}
+
+bool factorise_closed_rows(dynamics::MultiplierCondensation& condensation,
+                           const std::vector<dynamics::SystemRow>& rows,
+                           const std::vector<dynamics::BodyCompliance>& compliance,
+                           const std::vector<double>& give) {
+  const bool are_independent = condensation.factorise(rows, rows, compliance, {}) &&
+                               (give.empty() || condensation.pivot_ratio() > kTheSame);
+  return are_independent || condensation.factorise(rows, rows, compliance, give);
 }
 
 double own_compliance(const dynamics::SystemRow& row,

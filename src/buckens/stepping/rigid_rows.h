@@ -40,6 +40,14 @@ class RigidRows {
 /// leave the matrix regular.
 inline constexpr double kRigidGive = 1e-10;
 
+/// Factorises rows of joints and closed rigid rows, the latter with their give only where rows hold
+/// the same: it costs digits of the forces. @param give per rigid row, see kRigidGive
+/// @return false if joints are dependent
+bool factorise_closed_rows(dynamics::MultiplierCondensation& condensation,
+                           const std::vector<dynamics::SystemRow>& rows,
+                           const std::vector<dynamics::BodyCompliance>& compliance,
+                           const std::vector<double>& give);
+
 /// What a row gives per force along it, by what both bodies give alone [m/N], [rad/(N m)].
 double own_compliance(const dynamics::SystemRow& row,
                       const std::vector<dynamics::BodyCompliance>& compliance);

@@ -23,8 +23,6 @@ namespace {
 
 constexpr int kMaxRounds = 100;
 constexpr double kSettled = 1e-13;
-// Rigid rows with less of their own than this share hold what others hold.
-constexpr double kTheSame = 1e-11;
 
 /// Accelerations of one body, refined in rounds.
 struct BodyAcceleration {
@@ -93,10 +91,7 @@ class Accelerations {
     for (std::size_t k = rows_in_use_.size(); k < rows_.size(); ++k) {
       give.push_back(stepping::kRigidGive * stepping::own_compliance(rows_[k], compliance_));
     }
-    // The give only where rows hold the same: it costs digits of the forces.
-    const bool are_independent = condensation_->factorise(rows_, rows_, compliance_, {}) &&
-                                 (give.empty() || condensation_->pivot_ratio() > kTheSame);
-    if (!are_independent && !condensation_->factorise(rows_, rows_, compliance_, give)) {
+    if (!stepping::factorise_closed_rows(*condensation_, rows_, compliance_, give)) {
       throw NumericalError(
           "the joint equations are dependent in the initial position (a dead centre); start "
           "elsewhere");

@@ -24,8 +24,6 @@ namespace {
 // Gaps are small against the mechanism, so Newton's method doubles its digits each time.
 constexpr int kMostClosings = 6;
 constexpr double kClosedGap = 1e-13;  // of the model's length, or rad
-// Rigid rows with less of their own than this share hold what others hold.
-constexpr double kNothingOfItsOwn = 1e-11;
 
 /// What impulses along rows of joints and closed rigid rows do, at one configuration.
 class Impulses {
@@ -63,9 +61,7 @@ class Impulses {
   template <class Take>
   void undo(const std::vector<double>& values, Take&& take) {
     dynamics::MultiplierCondensation condensation(static_cast<int>(model_.bodies.size()), rows_);
-    const bool are_independent = condensation.factorise(rows_, rows_, compliance_, {}) &&
-                                 (give_.empty() || condensation.pivot_ratio() > kNothingOfItsOwn);
-    if (!are_independent && !condensation.factorise(rows_, rows_, compliance_, give_)) {
+    if (!stepping::factorise_closed_rows(condensation, rows_, compliance_, give_)) {
       throw NumericalError(
           fmt::format("the joint equations have become dependent (a singular position) after an "
                       "impact at t = {:.6g} s; look for a dead centre of the mechanism there",
