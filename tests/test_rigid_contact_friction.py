@@ -269,7 +269,7 @@ bodies:
   ball: {rigid: {mass: 0.5 kg, inertia: [1e-4, 1e-4, 1e-4]}, at: {position: [0.75, 0, 0.032]}}
 loads: {knock: {contact: {between: [beam/hit, ball], shapes: [{plane: {}}, {sphere: 30 mm}], restitution: 0.5, static: 0.1}}}
 initial: {bodies: {ball: {velocity: [3, 0.4, -2], angular-velocity: [0, 20, 0]}}}
-simulation: {duration: 6 ms, step: 10 us}
+simulation: {duration: 6 ms, step: 5 us}
 output: {every: 20 us, sensors: {v: {velocity: ball}, w: {angular-velocity: ball}, beam: {velocity: beam}, strain: {energy: strain}, lost: {energy: dissipated}, balance: {energy: balance}, total: {energy: total}}}
 """
 
@@ -281,12 +281,13 @@ def test_a_spinning_ball_strikes_a_flexible_beam(sensors):
         sum_ = mass * out[f"beam.{axis}"] + 0.5 * out[f"v.{axis}"]
         assert sum_ == pytest.approx(numpy.full(len(sum_), start), abs=1e-9)
     # It slides: friction against the slip, as much as the impulse across allows, and turns the ball. The beam bends
-    # meanwhile and is hit again, so that its normal turns: some per cent of 0.1.
+    # meanwhile and is hit again, so that its normal turns: a thousandth of 0.1.
     change = numpy.array([out["v.x"][-1] - 3, out["v.y"][-1] - 0.4, out["v.z"][-1] + 2]) * 0.5
-    assert numpy.hypot(change[0], change[1]) == pytest.approx(0.1 * change[2], rel=8e-2)
-    assert out["w.y"][-1] - 20 == pytest.approx(-0.03 * change[0] / 1e-4, rel=2e-2)
+    assert numpy.hypot(change[0], change[1]) == pytest.approx(0.1 * change[2], rel=2e-3)
+    assert out["w.y"][-1] - 20 == pytest.approx(-0.03 * change[0] / 1e-4, rel=1e-3)
     assert out["strain"].max() > 0 and out["lost"][-1] > 0.1
-    assert numpy.abs(out["balance"]).max() < 0.05 * out["total"][0]
+    # First order with meshes: 0.10, 0.014, 0.002 J at 10, 5 and 1 us.
+    assert numpy.abs(out["balance"]).max() < 0.04 * out["lost"][-1]
 
 
 @pytest.mark.parametrize("spec, words", [
