@@ -221,10 +221,11 @@ def broken(tmp_path, name, change):
     ("{stl: {file: cut.stl, unit: 1 m}}, {sphere: 0.1}", ["cut.stl", "cut off", "export it again"]),
     ("{stl: {file: empty.stl, unit: 1 m}}, {sphere: 0.1}", ["no triangles"]),
     ("{stl: {file: word.stl, unit: 1 m}}, {sphere: 0.1}", ["word.stl:4", "expected vertex, found corner"]),
+    ("{stl: {file: good.stl, unit: 1 m}}, {cylinder: {radius: 10 mm, length: 0.1}}", ["a mesh and a cylinder cannot touch", "mesh–sphere"]),
     ("{stl: {file: good.stl, unit: 1 m}}, {stl: {file: good.stl, unit: 1 m}}", ["a mesh and a mesh cannot touch", "mesh–sphere"]),
     ("{surface: {}}, {sphere: 0.1}", ["the ground has no mesh", "stl"]),
     ("{plane: {}}, {surface: {}}", ["its body is rigid and has no mesh"]),
-    ("{plane: {}}, {stl: {file: good.stl, unit: 1 m}}, exponent: 2", ["a mesh and a plane touch with an area"]),
+    ("{plane: {}}, {stl: {file: good.stl, unit: 1 m}}, exponent: 2", ["a plane and a mesh touch with an area"]),
     ("{stl: {file: good.stl, unit: 1 m}}, {sphere: 0.1}, modulus", ["Hertz has no force for a mesh and a sphere"]),
     ("{stl: {file: good.stl, unit: 1 m}}, {sphere: 0.1}, rigid", ["a mesh and a sphere need a `stiffness`"]),
 ])

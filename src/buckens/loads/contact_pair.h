@@ -37,12 +37,13 @@ struct ContactSpot {
   double held = 0;  ///< energy beyond that of its overlap, per stiffness [m²]
 };
 
-/// Two shapes that can touch. The first is a surface, given by the distance from it; the second is
-/// made of spheres, or of points where their radius is zero. So all pairs have exact distances:
-/// anything with a sphere; a plane with capsule, cylinder and box; a bore with a cylinder; two
-/// capsules. Two boxes touch with areas (loads/box_manifold.h), and so do a plane and a mesh; a
-/// mesh touches a sphere with each of its patches (loads/mesh_spots.h). Theory:
-/// docs/theory/25-contact.md §1, §6.
+/// Two shapes that can touch. The first is a surface, given by the distance from it
+/// (loads/shape_distance.h); the second is made of spheres, or of points where their radius is
+/// zero. So pairs have exact distances: anything with a sphere; a plane with capsule, cylinder and
+/// box; a bore with a cylinder. Capsules touch capsules, boxes and cylinders along a line
+/// (loads/line_spots.h); two boxes touch with areas (loads/box_manifold.h), a plane and a mesh and
+/// a cylinder and a box or cylinder with volumes (loads/mesh_spots.h, loads/cylinder_spots.h); a
+/// mesh touches a sphere with each of its patches. Theory: docs/theory/25-contact.md §1, §6.
 class ContactPair {
  public:
   static constexpr int kMostSpots = 8;
@@ -74,8 +75,6 @@ class ContactPair {
                std::span<ContactSpot> spots) const;
   void rim_points(const Eigen::Vector3d& r, const Eigen::Matrix3d& R,
                   std::span<ContactSpot> spots) const;
-  /// Distance from the surface of the first and its gradient.
-  double distance(const Eigen::Vector3d& point, Eigen::Vector3d& normal) const;
 
   ContactShape first_, second_;
   double radius_ = 0;  // of the spheres

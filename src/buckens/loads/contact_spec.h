@@ -32,8 +32,9 @@ struct ContactForceSpec {
               "stiffness", stiffness,
               "force at 1 m of overlap: N/m, with an `exponent` n other than 1 the number "
               "of N/m^n; of each point of a box, capsule or cylinder that touches; of two "
-              "boxes, or a mesh and a plane, of each quarter of an area like the mean face (a "
-              "sixth of the surface) of the smaller one")
+              "boxes, a cylinder and a box or cylinder, or a mesh and a plane, of each quarter of "
+              "an area like the mean face of the smaller one (of a cylinder an end, of a mesh a "
+              "sixth of the surface)")
               .in(base::kStiffness)
               .positive()
               .like("1e7 N/m")

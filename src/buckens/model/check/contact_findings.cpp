@@ -121,6 +121,21 @@ Found elastic_loss_problem(const loads::ContactForceSpec& spec) {
   return std::nullopt;
 }
 
+/// What touches with a volume has springs spread over it.
+Found exponent_problem(const loads::ContactForceSpec& spec, const std::string& first,
+                       const std::string& second) {
+  if (spec.exponent.value_or(1.0) == 1.0) return std::nullopt;
+  const auto are = [&](const char* a, const char* b) {
+    return (first == a && second == b) || (first == b && second == a);
+  };
+  if (!are("plane", "mesh") && !are("box", "cylinder") && !are("cylinder", "cylinder")) {
+    return std::nullopt;
+  }
+  return Finding{"exponent", fmt::format("a {} and a {} touch with an area, over which forces grow "
+                                         "linearly; remove `exponent`",
+                                         first, second)};
+}
+
 Found elastic_problem(const loads::ContactSpec& spec) {
   if (spec.stiffness && spec.modulus) {
     return Finding{"modulus", "`stiffness` and `modulus` both give the force; remove one of them"};
@@ -135,10 +150,9 @@ Found elastic_problem(const loads::ContactSpec& spec) {
                    "by `modulus` the exponent is 1.5; remove `exponent`, or give a "
                    "`stiffness` in place of `modulus`"};
   }
-  if (spec.exponent.value_or(1.0) != 1.0 && is_pair(spec, "plane", "mesh")) {
-    return Finding{"exponent",
-                   "a mesh and a plane touch with an area, over which forces grow linearly; "
-                   "remove `exponent`"};
+  if (Found found =
+          exponent_problem(spec, spec.shapes[0].touches_as(), spec.shapes[1].touches_as())) {
+    return found;
   }
   const bool is_hertz = is_pair(spec, "sphere", "plane") || is_pair(spec, "sphere", "sphere") ||
                         is_pair(spec, "sphere", "socket");
@@ -172,8 +186,8 @@ Found contact_friction_problem(const loads::ContactForceSpec& spec) {
 }
 
 /// Whether two entries have shapes that can touch, where they can meet at all.
-Found kinds_problem(const loads::ContactMemberSpec& a, const loads::ContactMemberSpec& b,
-                    bool needs_hertz) {
+Found kinds_problem(const loads::ContactsSpec& spec, const loads::ContactMemberSpec& a,
+                    const loads::ContactMemberSpec& b) {
   const auto is_on_ground = [](const loads::ContactMemberSpec& one) { return one.on.is_ground(); };
   if (is_on_ground(a) && is_on_ground(b)) return std::nullopt;
   const std::string first = a.shape.touches_as(), second = b.shape.touches_as();
@@ -188,22 +202,21 @@ Found kinds_problem(const loads::ContactMemberSpec& a, const loads::ContactMembe
                                         first, second)};
   }
   const auto has = [&](const char* kind) { return first == kind || second == kind; };
-  if (needs_hertz && !(has("sphere") && (first == second || has("plane") || has("socket")))) {
+  if (spec.modulus && !(has("sphere") && (first == second || has("plane") || has("socket")))) {
     return Finding{
         "modulus",
         fmt::format("Hertz has no force for a {} and a {}; give a `stiffness`", first, second)};
   }
-  return std::nullopt;
+  return exponent_problem(spec, first, second);
 }
 
 Found kinds_problem(const loads::ContactsSpec& spec) {
-  const bool needs_hertz = spec.modulus.has_value();
   const auto& others = spec.against.empty() ? spec.among : spec.against;
   for (std::size_t i = 0; i < spec.among.size(); ++i) {
     for (std::size_t j = spec.against.empty() ? i : 0; j < others.size(); ++j) {
       // One body does not touch itself.
       if (&spec.among[i] == &others[j] && spec.among[i].bodies.empty()) continue;
-      if (Found found = kinds_problem(spec.among[i], others[j], needs_hertz)) return found;
+      if (Found found = kinds_problem(spec, spec.among[i], others[j])) return found;
     }
   }
   return std::nullopt;

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/loads/contact_pair.h"
+
+namespace buckens::loads {
+
+/// Distance of a point from the surface of a shape, negative inside [m]; exact.
+/// @param point in axes of the shape, @param normal gradient there, out of the solid
+double distance_from(const ContactShape& shape, const Eigen::Vector3d& point,
+                     Eigen::Vector3d& normal);
+
+}  // namespace buckens::loads
