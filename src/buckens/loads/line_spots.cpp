@@ -19,6 +19,8 @@ namespace {
 constexpr std::size_t kMostStations = 10;
 // A spot with less than this share of the force has none: rounding must not close it.
 constexpr double kNoShare = 1e-9;
+// Stiffness of two round axes: crossed, they touch in a point, which has K as of spheres.
+constexpr double kOfCrossed = 35.0 / 48.0;
 // Halvings that leave nothing of an interval.
 constexpr int kLineHalvings = 200;
 // Gauss's points on −1 … 1: within a region the overlap is smooth over lengths of the radius.
@@ -183,6 +185,7 @@ void find_line_spots(const ContactShape& first, const ContactShape& capsule, con
   const std::array<Vector3d, 2> shares = {Vector3d((high * force.sum - force.moment) / span),
                                           Vector3d((force.moment - low * force.sum) / span)};
   // Overlaps in proportion to the forces, so that both springs have the energy of the line.
+  const double stiffness = first.kind == ShapeKind::capsule ? kOfCrossed : 1.0;
   const double scale = 2.0 * force.energy / (shares[0].squaredNorm() + shares[1].squaredNorm());
   for (std::size_t k = 0; k < 2; ++k) {
     const double size = shares[k].norm();
@@ -195,7 +198,7 @@ void find_line_spots(const ContactShape& first, const ContactShape& capsule, con
     const double s = k == 0 ? low : high;
     spot.normal = shares[k] / size;
     spot.gap = -scale * size;
-    spot.share = 1.0 / scale;
+    spot.share = stiffness / scale;
     spot.place = line.at(s) - 0.5 * (line.distance(s) + radius) * spot.normal;
   }
 }

@@ -17,7 +17,7 @@ constexpr bool touches_along_lines(ContactShape::Kind first) {
 /// its axis, which has the energy K ∫ δ³ ds/∫ δ ds.
 ///
 /// On a flat face that is what springs K at both ends have, in between it passes over edges without
-/// a jump, and a single point has 48/35 K. Both forces together are the exact derivative of the
+/// a jump. Crossed capsules have K. Both forces together are the exact derivative of the
 /// energy. Theory: docs/theory/25-contact.md §1, (C11) and (C12).
 /// @param r middle of the capsule in axes of the first [m], @param R its orientation in the first
 /// @param spots two of them, axes of the first
