@@ -39,6 +39,7 @@ ContactFriction::Slip ContactFriction::slip(const Sight& sight) const {
   }
   out.speed = out.velocity.norm();
   if (out.force.norm() > 0.0) out.towards = -out.force.normalized();
+  if (sight.stand.regime >= kHeldDirection) return out;
   const bool goes_on = out.velocity.dot(out.towards) >= kGoesOn * out.speed * out.towards.norm();
   if (goes_on && out.speed > data_.at_rest) out.towards = out.velocity / out.speed;
   return out;
@@ -67,6 +68,7 @@ RigidRow ContactFriction::row(const Sight& sight) const {
   }
   out.given = given;
   // What has turned round since the step began has stood still between.
+  if (sight.stand.regime >= kHeldDirection) return out;
   const bool has_turned = now.velocity.dot(now.force) > data_.at_rest * now.force.norm();
   if (has_turned && began_sliding(sight)) out.next = {1, given};
   return out;
@@ -84,7 +86,8 @@ void ContactFriction::append_tangent(const Sight& sight, std::vector<SoftRow>& r
 
 void ContactFriction::find_states(const Sight& sight, double* states) const {
   RigidLaw::find_states(sight, states);
-  if (sight.stand.regime != 2) return;
+  if (sight.stand.regime < 2) return;
+  states[0] = 2;
   // The next step begins with the direction that this one has ended with.
   const Slip now = slip(sight);
   if (!(now.speed > data_.at_rest)) return;
@@ -92,7 +95,7 @@ void ContactFriction::find_states(const Sight& sight, double* states) const {
 }
 
 double ContactFriction::slope(const Sight& sight) const {
-  if (sight.stand.regime != 2) return 0.0;
+  if (sight.stand.regime < 2) return 0.0;
   const Slip now = slip(sight);
   return -data_.coefficient(now.speed) * now.towards[direction_];
 }

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include <Eigen/Eigenvalues>
-
+#include "buckens/stepping/cone_impulse.h"
 #include "buckens/stepping/impacts.h"
 #include "buckens/stepping/step_failure.h"
 
@@ -16,104 +16,208 @@ using linalg::Vector;
 
 namespace {
 
-constexpr int kMostSweeps = 1000;
-constexpr int kMostAgreements = 200;
 // Changes of rates by this share of what impulses do to them, and those that may be rounding where
 // they do not fall any more. How places share an impulse is known to less, which no rate feels.
 constexpr double kSameRates = 1e-14;
 constexpr double kRoundingOfRates = 1e-10;
-constexpr int kHalvings = 200;
-// Answers of a slip by this share of the largest answer of all.
-constexpr double kNoAnswerOfSlip = 1e-12;
+// Answers by this share of the largest answer of all.
+constexpr double kNoAnswer = 1e-12;
+// Impulses across and along in turn, with sweeps over the latter; place by place; the same by half
+// of each change, where that goes to and fro; and blows one after the other.
+constexpr int kMostAgreements = 50;
+constexpr int kMostSlipSweeps = 1000;
+constexpr int kMostSweeps = 500;
+constexpr int kMostHalfSweeps = 2000;
+constexpr int kMostBlows = 10000;
 
-/// Impulse of one slip that stops it, or the one on the cone that is against what remains of it.
-/// @param B answers of the slip to it, @param v slip without it, @param most μ P_n
-/// @param none answers up to this are rounding: guides hold the bodies in such a direction
-Vector rub(const Matrix& B, const Vector& v, double most, double none) {
-  if (!(most > 0.0)) return Vector::Zero(v.size());
-  const Eigen::SelfAdjointEigenSolver<Matrix> modes(B);
-  const Vector& answers = modes.eigenvalues();
-  Vector parts = modes.eigenvectors().transpose() * v;
-  for (Eigen::Index k = 0; k < parts.size(); ++k) {
-    if (answers[k] <= none) parts[k] = 0.0;
-  }
-  if (parts.norm() == 0.0) return Vector::Zero(v.size());
-  // P = −(B + s)⁻¹ v: its size falls with s, the ratio of the slip that remains to the impulse.
-  const auto at = [&](double s) -> Vector {
-    Vector out(parts.size());
-    for (Eigen::Index k = 0; k < parts.size(); ++k) {
-      out[k] = parts[k] == 0.0 ? 0.0 : -parts[k] / (answers[k] + s);
+/// The places that are struck, each with its rows: across, then along.
+class Places {
+ public:
+  Places(const Matrix& D, const Vector& b, Eigen::Index num_across,
+         const std::vector<ImpactSlip>& slips)
+      : D_(D), b_(b), none_(kNoAnswer * D.diagonal().maxCoeff()) {
+    for (Eigen::Index across = 0; across < num_across; ++across) {
+      places_.push_back({{across}, {}, 0.0});
     }
-    return out;
-  };
-  const Vector stops = at(0.0);
-  if (stops.norm() <= most) return modes.eigenvectors() * stops;
-  double low = 0.0;
-  double high = parts.norm() / most;  // there the size is at most `most`
-  for (int k = 0; k < kHalvings; ++k) {
-    const double middle = 0.5 * (low + high);
-    if (middle == low || middle == high) break;
-    (at(middle).norm() > most ? low : high) = middle;
-  }
-  const Vector slides = at(high);
-  return modes.eigenvectors() * (slides * (most / slides.norm()));
-}
-
-/// What impulses do to the rates at most.
-double size_of_rates(const Matrix& D, const Vector& P) {
-  return (D.cwiseAbs() * P.cwiseAbs()).maxCoeff();
-}
-
-/// Impulses along the surfaces for given ones across them. @return whether the rates have settled
-bool solve_slips(const Matrix& D, const Vector& b, const std::vector<ImpactSlip>& slips,
-                 Vector& P) {
-  const double none = kNoAnswerOfSlip * D.diagonal().maxCoeff();
-  double change = 0.0, size = 0.0;
-  Vector last = P;
-  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     for (const ImpactSlip& slip : slips) {
-      const auto own = Eigen::seqN(slip.first, slip.count);
-      const Matrix B = D(own, own);
-      const Vector v = D(own, Eigen::all) * P - b(own) - B * P(own);
-      P(own) = rub(B, v, slip.coefficient * P[slip.across], none);
+      Place& place = places_[static_cast<std::size_t>(slip.across)];
+      place.coefficient = slip.coefficient;
+      for (Eigen::Index k = 0; k < slip.count; ++k) place.rows.push_back(slip.first + k);
     }
-    change = (D * (P - last)).cwiseAbs().maxCoeff();
-    size = size_of_rates(D, P);
-    if (change <= kSameRates * size) return true;
-    last = P;
+    for (Place& place : places_) place.answers = D(place.rows, place.rows);
   }
-  return change <= kRoundingOfRates * size;
+
+  /// The impulses of (I1) and (I2): all those across with those along, and the other way round. What
+  /// holds the same is shared alike. @return whether both agree
+  bool agree(Vector& P) const {
+    const auto count = static_cast<Eigen::Index>(places_.size());
+    const auto across = Eigen::seqN(Eigen::Index{0}, count);
+    const auto along = Eigen::seqN(count, D_.rows() - count);
+    const Matrix pressing = D_(across, across);
+    double change_before = HUGE_VAL;
+    for (int round = 0; round < kMostAgreements; ++round) {
+      const bool has_settled = settle_slips(P);
+      const Vector before = P(across);
+      P(across) = solve_complementarity(pressing, b_(across) - D_(across, along) * P(along));
+      const double change =
+          (D_(Eigen::all, across) * (P(across) - before)).cwiseAbs().maxCoeff() / size_of_rates(P);
+      const bool is_rounding = change <= kRoundingOfRates &&
+                               (change >= 0.5 * change_before || round + 1 == kMostAgreements);
+      if (has_settled && (!(change > kSameRates) || is_rounding)) {
+        settle_slips(P);
+        return true;
+      }
+      change_before = change;
+    }
+    return false;
+  }
+
+  /// The impulses of (I1) and (I2): each place's in turn, with those of the others.
+  /// @param share of each change that is made @return whether the rates have settled
+  bool settle(Vector& P, double share, int most_sweeps) const {
+    double change = 0.0, size = 0.0;
+    Vector last = P;
+    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+      for (const Place& place : places_) {
+        const Vector own = P(place.rows);
+        const Vector v = rates(place, P) - place.answers * own;
+        P(place.rows) += share * (cone_impulse(place.answers, v, place.coefficient, none_) - own);
+      }
+      change = (D_ * (P - last)).cwiseAbs().maxCoeff();
+      size = size_of_rates(P);
+      if (change <= kSameRates * share * size) return true;
+      last = P;
+    }
+    return change <= kRoundingOfRates * share * size;
+  }
+
+  /// Blows one after the other, always where the bodies approach each other most, until they do not
+  /// any more. None of them takes back what another has done. @return whether they come to an end
+  bool strike_in_turn(Vector& P) const {
+    P.setZero(D_.rows());
+    for (int blow = 0; blow < kMostBlows; ++blow) {
+      const Place* next = nullptr;
+      double approach = kRoundingOfRates * std::max(size_of_rates(P), b_.cwiseAbs().maxCoeff());
+      for (const Place& place : places_) {
+        const double rate = D_.row(place.rows.front()).dot(P) - b_[place.rows.front()];
+        if (-rate <= approach || place.answers(0, 0) <= none_) continue;
+        approach = -rate;
+        next = &place;
+      }
+      if (next == nullptr) return true;
+      P(next->rows) += cone_impulse(next->answers, rates(*next, P), next->coefficient, none_);
+    }
+    return false;
+  }
+
+ private:
+  /// Impulses along for given ones across. @return whether the rates have settled
+  bool settle_slips(Vector& P) const {
+    double change = 0.0, size = 0.0;
+    Vector last = P;
+    for (int sweep = 0; sweep < kMostSlipSweeps; ++sweep) {
+      for (const Place& place : places_) {
+        const auto n = static_cast<Eigen::Index>(place.rows.size()) - 1;
+        if (n == 0) continue;
+        const Matrix B = place.answers.bottomRightCorner(n, n);
+        const std::vector<Eigen::Index> along(place.rows.begin() + 1, place.rows.end());
+        const Vector own = P(along);
+        const Vector v = D_(along, Eigen::all) * P - b_(along) - B * own;
+        P(along) = rub_impulse(B, v, place.coefficient * P[place.rows.front()], none_);
+      }
+      change = (D_ * (P - last)).cwiseAbs().maxCoeff();
+      size = size_of_rates(P);
+      if (change <= kSameRates * size) return true;
+      last = P;
+    }
+    return change <= kRoundingOfRates * size;
+  }
+
+  struct Place {
+    std::vector<Eigen::Index> rows;
+    Matrix answers;
+    double coefficient = 0;
+  };
+
+  Vector rates(const Place& place, const Vector& P) const {
+    return D_(place.rows, Eigen::all) * P - b_(place.rows);
+  }
+  /// What impulses do to the rates at most.
+  double size_of_rates(const Vector& P) const {
+    return (D_.cwiseAbs() * P.cwiseAbs()).maxCoeff();
+  }
+
+  const Matrix& D_;
+  const Vector& b_;
+  double none_;
+  std::vector<Place> places_;
+};
+
+}  // namespace
+
+namespace {
+
+Vector solve_together(const Matrix& D, const Vector& b, Eigen::Index num_across,
+                      const std::vector<ImpactSlip>& slips) {
+  const auto across = Eigen::seqN(Eigen::Index{0}, num_across);
+  Vector smooth = Vector::Zero(D.rows());
+  smooth(across) = solve_complementarity(D(across, across), b(across));
+  if (slips.empty()) return smooth;
+  const Places places(D, b, num_across, slips);
+  Vector P = smooth;
+  if (places.agree(P)) return P;
+  P = smooth;
+  if (places.settle(P, 1.0, kMostSweeps)) return P;
+  P = smooth;
+  if (places.settle(P, 0.5, kMostHalfSweeps)) return P;
+  if (places.strike_in_turn(P)) return P;
+  throw StepFailure(
+      "no impulses satisfy all rigid contacts with friction that are struck at once: friction "
+      "jams; give the contact a `stiffness`, or less `static`");
+}
+
+/// Rows of one-sided rows and their slips that answer each other, group by group.
+std::vector<std::vector<Eigen::Index>> groups_of(const Matrix& D, Eigen::Index num_across,
+                                                 const std::vector<ImpactSlip>& slips) {
+  std::vector<std::vector<Eigen::Index>> rows;  // of each place
+  for (Eigen::Index k = 0; k < num_across; ++k) rows.push_back({k});
+  for (const ImpactSlip& slip : slips) {
+    for (Eigen::Index k = 0; k < slip.count; ++k) {
+      rows[static_cast<std::size_t>(slip.across)].push_back(slip.first + k);
+    }
+  }
+  std::vector<std::vector<Eigen::Index>> groups;
+  for (std::vector<Eigen::Index>& own : rows) {
+    for (std::size_t k = groups.size(); k-- > 0;) {
+      if (D(groups[k], own).isZero(0.0)) continue;
+      own.insert(own.end(), groups[k].begin(), groups[k].end());
+      groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+    groups.push_back(std::move(own));
+  }
+  for (std::vector<Eigen::Index>& group : groups) std::sort(group.begin(), group.end());
+  return groups;
 }
 
 }  // namespace
 
 Vector solve_impact(const Matrix& D, const Vector& b, Eigen::Index num_across,
                     const std::vector<ImpactSlip>& slips) {
-  const auto across = Eigen::seqN(Eigen::Index{0}, num_across);
-  const auto along = Eigen::seqN(num_across, D.rows() - num_across);
-  Vector P = Vector::Zero(D.rows());
-  const Matrix pressing = D(across, across);
-  P(across) = solve_complementarity(pressing, b(across));
-  if (slips.empty()) return P;
-  double change_before = HUGE_VAL;
-  for (int round = 0; round < kMostAgreements; ++round) {
-    const bool has_settled = solve_slips(D, b, slips, P);
-    const Vector before = P(across);
-    const Vector asked = b(across) - D(across, along) * P(along);
-    P(across) = solve_complementarity(pressing, asked);
-    const double change =
-        (D(Eigen::all, across) * (P(across) - before)).cwiseAbs().maxCoeff() / size_of_rates(D, P);
-    const bool is_rounding = change <= kRoundingOfRates &&
-                             (change >= 0.5 * change_before || round + 1 == kMostAgreements);
-    if (has_settled && (!(change > kSameRates) || is_rounding)) {
-      solve_slips(D, b, slips, P);
-      return P;
+  if (slips.empty()) return solve_together(D, b, num_across, slips);
+  Vector P(D.rows());
+  for (const std::vector<Eigen::Index>& group : groups_of(D, num_across, slips)) {
+    // Rows keep their order: across, then along.
+    const auto place_of = [&](Eigen::Index row) {
+      return std::lower_bound(group.begin(), group.end(), row) - group.begin();
+    };
+    std::vector<ImpactSlip> own;
+    for (const ImpactSlip& slip : slips) {
+      if (!std::binary_search(group.begin(), group.end(), slip.first)) continue;
+      own.push_back({place_of(slip.across), place_of(slip.first), slip.count, slip.coefficient});
     }
-    change_before = change;
+    P(group) = solve_together(D(group, group), b(group), place_of(num_across), own);
   }
-  throw StepFailure(
-      "no impulses satisfy all rigid contacts with friction that are struck at once: friction "
-      "jams; give the contact a `stiffness`, or less `static`");
+  return P;
 }
 
 }  // namespace buckens::stepping

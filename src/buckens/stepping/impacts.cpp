@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "buckens/dynamics/constraints.h"
 #include "buckens/dynamics/mass_metric.h"
 #include "buckens/spatial/rotation.h"
 #include "buckens/stepping/friction_impulses.h"
@@ -62,17 +61,6 @@ double rate_at(double s, double gap_start, double rate_start, double gap_end, do
   const double r = 1.0 - s;
   return 6.0 * s * r * (gap_end - gap_start) / h + r * (1.0 - 3.0 * s) * rate_start +
          s * (3.0 * s - 2.0) * rate_end;
-}
-
-double rate_of(const dynamics::SystemRow& row, const std::vector<Vector6>& u,
-               const std::vector<Eigen::VectorXd>& y) {
-  double sum = 0;
-  for (const dynamics::BodyRow* part : {&row.first, &row.second}) {
-    if (part->body == model::kGround) continue;
-    const auto b = static_cast<std::size_t>(part->body);
-    sum += part->change(u[b], y[b]);
-  }
-  return sum;
 }
 
 double rate_of(const dynamics::SystemRow& row, const std::vector<dynamics::BodyMotion>& motions) {
@@ -131,7 +119,7 @@ Vector solve_complementarity(const Matrix& D, const Vector& b) {
 
 Impacts::Impacts(const model::Model& model, const Scheme& scheme,
                  std::vector<const BodyAnswer*> answers)
-    : model_(model), scheme_(scheme), answers_(std::move(answers)) {
+    : model_(model), scheme_(scheme), answers_(std::move(answers)), answers_to_(model) {
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     if (model.loads[k].rigid_row < 0) continue;
     const auto* law = static_cast<const loads::RigidLaw*>(model.loads[k].element.get());
@@ -188,7 +176,7 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
   condense(then, bodies, rows_in_use, around.memory, t);
   for (Touch& touch : touches_) {
     set_row(laws_[touch.law].load, touch.sign, then, touch);
-    answer(touch);
+    answers_to_.answer(touch);
   }
   for (std::size_t k = 0; k < touches_.size(); ++k) add_slips(k, then);
   try {
@@ -209,7 +197,7 @@ Vector Impacts::solve() const {
     b[i] = row < touches_.size() ? touches_[row].target : -slips_[row - touches_.size()].speed;
     for (Eigen::Index j = 0; j < n; ++j) {
       const Push& other = push(static_cast<std::size_t>(j));
-      D(i, j) = rate_of(push(row).row, other.u, other.y);
+      D(i, j) = PushAnswers::along(push(row).row, other);
     }
   }
   std::vector<ImpactSlip> slips;
@@ -242,7 +230,7 @@ void Impacts::add_slips(std::size_t index, const std::vector<dynamics::BodyMotio
     const double end = rate_of(slip.row, then);
     slip.at_impact = end + touch.since / scheme_.h * (rate_of(slip.row, start_) - end);
     slip.speed = touch.stays ? end : slip.at_impact;
-    answer(slip);
+    answers_to_.answer(slip);
     slips_.push_back(std::move(slip));
   }
 }
@@ -341,67 +329,11 @@ void Impacts::condense(const std::vector<dynamics::BodyMotion>& motions,
     compliance_[b].frame = dynamics::frame_mobility(body, J);
     compliance_[b].interface = interface_[b].size() > 0 ? &interface_[b] : nullptr;
   }
-  joints_.reset();
-  if (rows_in_use.empty()) return;
-  dynamics::Constraints all;
-  dynamics::evaluate_constraints(model_, motions, t, memory, all);
-  std::vector<dynamics::SystemRow> rows;
-  rows.reserve(rows_in_use.size());
-  for (const int row : rows_in_use) rows.push_back(all.rows[static_cast<std::size_t>(row)]);
-  joints_.emplace(static_cast<int>(bodies.size()), rows);
-  if (joints_->factorise(rows, rows, compliance_, {})) return;
+  if (answers_to_.condense(compliance_, motions, rows_in_use, memory, t)) return;
   throw StepFailure(
       fmt::format("the joint equations have become dependent (a singular position) at an impact at "
                   "t = {:.6g} s; look for a dead centre of the mechanism there",
                   t));
-}
-
-void Impacts::answer(Push& push) {
-  const std::size_t count = model_.bodies.size();
-  std::vector<dynamics::BodyResponse> loads(count);
-  push.u.assign(count, Vector6::Zero());
-  push.y.resize(count);
-  for (std::size_t b = 0; b < count; ++b) {
-    loads[b].interface_load.setZero(model_.bodies[b].num_interface_rows());
-    push.y[b].setZero(model_.bodies[b].num_interface_rows());
-  }
-  for (const dynamics::BodyRow* part : {&push.row.first, &push.row.second}) {
-    if (part->body == model::kGround) continue;
-    dynamics::BodyResponse& load = loads[static_cast<std::size_t>(part->body)];
-    load.frame_load += part->frame.transpose();
-    for (int i = 0; i < 6; ++i) {
-      const int first = i < 3 ? part->translation_row : part->rotation_row;
-      if (first >= 0) load.interface_load[first + i % 3] += part->interface[i];
-    }
-  }
-  const auto move = [&](std::size_t b) {
-    push.u[b] = compliance_[b].frame * loads[b].frame_load;
-    if (compliance_[b].interface != nullptr) {
-      push.y[b] = *compliance_[b].interface * loads[b].interface_load;
-    }
-  };
-  for (std::size_t b = 0; b < count; ++b) move(b);
-  if (joints_) {
-    Vector X;
-    joints_->test_rows().changes(X, [&](int b) {
-      const auto k = static_cast<std::size_t>(b);
-      return dynamics::Displacement{&push.u[k], &push.y[k]};
-    });
-    X = -X;
-    joints_->solve_in_place(X);
-    std::vector<dynamics::BodyResponse> of_joints(count);
-    for (std::size_t b = 0; b < count; ++b) {
-      of_joints[b].interface_load.setZero(loads[b].interface_load.size());
-    }
-    joints_->gather(X, of_joints);
-    for (std::size_t b = 0; b < count; ++b) {
-      loads[b].frame_load += of_joints[b].frame_load;
-      loads[b].interface_load += of_joints[b].interface_load;
-      move(b);
-    }
-  }
-  push.load.clear();
-  for (dynamics::BodyResponse& load : loads) push.load.push_back(std::move(load.interface_load));
 }
 
 void Impacts::sum_up(const Vector& P) {
@@ -410,7 +342,7 @@ void Impacts::sum_up(const Vector& P) {
   for (std::size_t i = 0; i < num_pushes(); ++i) {
     for (std::size_t k = 0; k < num_pushes(); ++k) {
       jump[static_cast<Eigen::Index>(i)] +=
-          P[static_cast<Eigen::Index>(k)] * rate_of(push(i).row, push(k).u, push(k).y);
+          P[static_cast<Eigen::Index>(k)] * PushAnswers::along(push(i).row, push(k));
     }
   }
   land(P, jump);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "buckens/dynamics/circumstances.h"
-#include "buckens/dynamics/multiplier_condensation.h"
 #include "buckens/loads/contact_friction.h"
 #include "buckens/stepping/body_answer.h"
 #include "buckens/stepping/body_step.h"
+#include "buckens/stepping/push_answers.h"
 
 namespace buckens::stepping {
 
@@ -79,12 +78,6 @@ class Impacts {
     loads::CoordinateMotion start{};
     std::vector<Friction> frictions;
   };
-  /// A row along which an impulse acts, and what a unit of it does.
-  struct Push {
-    dynamics::SystemRow row;
-    std::vector<Vector6> u;  ///< answers of the bodies
-    std::vector<Eigen::VectorXd> y, load;
-  };
   /// A stop that is reached.
   struct Touch : Push {
     std::size_t law;        ///< index into laws_
@@ -128,7 +121,6 @@ class Impacts {
   void condense(const std::vector<dynamics::BodyMotion>& motions,
                 const std::vector<BodyStep>& bodies, const std::vector<int>& rows_in_use,
                 const model::RowMemory* memory, double t);
-  void answer(Push& push);
   void sum_up(const linalg::Vector& P);
   void move_bodies(const linalg::Vector& P);
   void land(const linalg::Vector& P, const linalg::Vector& jump);
@@ -144,7 +136,7 @@ class Impacts {
   std::vector<Slip> slips_;
   std::vector<linalg::Matrix> interface_;  // k₀ N Y K̂⁻¹Nᵀ
   std::vector<dynamics::BodyCompliance> compliance_;
-  std::optional<dynamics::MultiplierCondensation> joints_;  // empty without joint rows
+  PushAnswers answers_to_;
   std::vector<BodyJump> jumps_;
   std::vector<Landing> landings_;
   double loss_ = 0, rest_ = 0, since_impulses_ = 0;

@@ -25,9 +25,10 @@ void RigidRows::start(const model::RowMemory& memory) {
   num_moves_ = 0;
 }
 
-bool RigidRows::move(const std::vector<loads::RigidRow>& rows) {
+bool RigidRows::move(const std::vector<loads::RigidRow>& rows, const std::vector<char>& others) {
   bool has_moved = false;
   for (std::size_t k = 0; k < stands_.size(); ++k) {
+    if (!others.empty() && others[k] != 0) continue;
     const loads::RowStand next = rows[k].next;
     const bool is_other = next.regime != stands_[k].regime;
     has_moved = has_moved || is_other;
@@ -35,6 +36,13 @@ bool RigidRows::move(const std::vector<loads::RigidRow>& rows) {
   }
   if (has_moved) ++num_moves_;
   return has_moved;
+}
+
+bool RigidRows::put(int row, const loads::RowStand& stand) {
+  loads::RowStand& own = stands_[static_cast<std::size_t>(row)];
+  const bool is_other = own.regime != stand.regime;
+  own = stand;
+  return is_other;
 }
 
 bool RigidRows::have_changed() const {

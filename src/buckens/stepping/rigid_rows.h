@@ -22,8 +22,13 @@ class RigidRows {
   /// One per Load::rigid_row, in memory that stays in place.
   const std::vector<loads::RowStand>& stands() const { return stands_; }
   void add_force(int row, double change) { stands_[static_cast<std::size_t>(row)].force += change; }
-  /// Moves all rows to the stands that follow from their sets. @return whether a regime changed
-  bool move(const std::vector<loads::RigidRow>& rows);
+  /// Moves rows to the stands that follow from their sets. @param others rows that are not moved,
+  /// where it is not empty @return whether a regime changed
+  bool move(const std::vector<loads::RigidRow>& rows, const std::vector<char>& others = {});
+  /// Moves one row. @return whether its regime changed
+  bool put(int row, const loads::RowStand& stand);
+  /// Counts a move of rows that were put.
+  void count_move() { ++num_moves_; }
   /// Regime changes in this step.
   int num_moves() const { return num_moves_; }
   /// Whether any regime is another one than at the start of the step.

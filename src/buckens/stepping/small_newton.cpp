@@ -62,6 +62,7 @@ SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
       released_(settings.released),
       watch_(model),
       rigid_(model),
+      cones_(model),
       held_(model),
       ending_(settings, model.length),
       joints_(model),
@@ -413,17 +414,25 @@ IterationEnd::Change SmallNewton::move(std::vector<BodyStep>& bodies, double t, 
 void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda, Change change,
                          StepReport& report) {
   Change before;
-  for (int iteration = 1;; ++iteration) {
+  int since_moved = 0;  // iterations since a rigid row moved last
+  for (;;) {
+    ++since_moved;
     evaluate(bodies, t, lambda);
     record_residuals(residuals_, report);
     bool are_formed = regimes_hold(bodies, t, report);
-    if (are_formed && ending_.is_settled(change, before, condensation_->pivot_ratio())) {
-      if (!move_rigid_rows(t, report)) break;
-      evaluate(bodies, t, lambda);
-      are_formed = regimes_hold(bodies, t, report);
+    const bool is_settled =
+        are_formed && ending_.is_settled(change, before, condensation_->pivot_ratio());
+    if (is_settled || is_restless(since_moved)) {
+      const bool has_moved = is_settled ? move_rigid_rows(t, report) : decide_cones(t);
+      if (is_settled && !has_moved) break;
+      if (has_moved) {
+        since_moved = 0;
+        evaluate(bodies, t, lambda);
+        are_formed = regimes_hold(bodies, t, report);
+      }
     }
     if (are_formed && is_balanced(find_residuals(bodies), change.motion) &&
-        iteration <= settings_.max_newton) {
+        since_moved <= settings_.max_newton) {
       break;
     }
     if (are_formed) {
@@ -433,7 +442,7 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
       before = {};  // another tangent converges at its own rate
       ending_.begin_anew();
     }
-    if (iteration >= settings_.max_newton) {
+    if (since_moved >= settings_.max_newton) {
       fail(t, report, "the step's iteration does not converge");
     }
     if (!are_formed) find_residuals(bodies);

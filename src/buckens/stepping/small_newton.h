@@ -13,6 +13,7 @@
 #include "buckens/stepping/body_iteration.h"
 #include "buckens/stepping/held_laws.h"
 #include "buckens/stepping/iteration_end.h"
+#include "buckens/stepping/contact_cones.h"
 #include "buckens/stepping/rigid_rows.h"
 #include "buckens/stepping/row_watch.h"
 #include "buckens/stepping/step_settings.h"
@@ -111,6 +112,13 @@ class SmallNewton {
   const loads::RigidRow* closed_row(std::size_t soft) const;
   /// Moves rigid rows to where their sets put them, once all else is settled. @return whether any
   bool move_rigid_rows(double t, const StepReport& report);
+  /// Decides anew how rigid contacts with friction stand. @return whether any stands otherwise
+  bool decide_cones(double t);
+  /// Whether the iteration goes on for so long that friction may turn to and fro.
+  bool is_restless(int iterations) const {
+    constexpr int kRestless = 10;
+    return !cones_.empty() && iterations % kRestless == 0;
+  }
   /// Forms the matrix of multipliers again if a force law has changed its regime since. @return
   /// false if so
   bool regimes_hold(std::vector<BodyStep>& bodies, double t, const StepReport& report);
@@ -152,6 +160,7 @@ class SmallNewton {
   model::RowMemory steered_;  // of models with drives by signals: around_.memory, steered
   dynamics::SignalValues steering_signals_;
   RigidRows rigid_;
+  ContactCones cones_;
   HeldLaws held_;
   int num_selections_ = 0;
   std::unique_ptr<dynamics::MultiplierCondensation> condensation_;

@@ -80,12 +80,24 @@ const loads::RigidRow* SmallNewton::closed_row(std::size_t soft) const {
 }
 
 bool SmallNewton::move_rigid_rows(double t, const StepReport& report) {
-  if (rigid_.empty() || !rigid_.move(forces_.rigid)) return false;
+  if (rigid_.empty()) return false;
+  bool have_moved = rigid_.move(forces_.rigid, cones_.rows());
+  if (!cones_.empty() && !cones_.hold(forces_.rigid, rigid_.stands())) {
+    const bool have_turned = decide_cones(t);
+    if (have_turned && !have_moved) rigid_.count_move();
+    have_moved = have_moved || have_turned;
+  }
+  if (!have_moved) return false;
   if (rigid_.num_moves() > kMostMoves) {
     fail(t, report,
          "no combination of holding and releasing satisfies all rigid stops and rigid friction");
   }
   return true;
+}
+
+bool SmallNewton::decide_cones(double t) {
+  return cones_.decide(forces_.rigid, soft_, compliance_, end_, rows_in_use_, around_.memory,
+                       t + scheme_.h, scheme_, rigid_);
 }
 
 bool SmallNewton::form_tangent(std::vector<BodyStep>& bodies, bool rigid_rows_moved) {

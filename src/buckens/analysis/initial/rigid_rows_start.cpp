@@ -16,7 +16,7 @@ namespace buckens::analysis {
 
 namespace {
 
-constexpr int kMostRowRounds = 100;
+constexpr int kMostRowRounds = 450;
 // Changes of accelerations by this share of the largest one, and those that may be rounding where
 // they do not fall any more.
 constexpr double kSameMotion = 1e-13;
@@ -63,21 +63,39 @@ linalg::Vector accelerations_of(const model::Model& model, const model::State& s
   return out;
 }
 
+/// Share of the change of forces in a round that the next one takes over. Where friction takes much
+/// of what presses, whole changes go to and fro ever further.
+double share_of(int round) {
+  constexpr int kWhole = 30, kThird = 150;
+  return round < kWhole ? 1.0 : round < kThird ? 0.3 : 0.1;
+}
+
+/// Takes back a part of what forces of rigid rows have changed by. @param before all memories of laws
+void take_back(const model::Model& model, const linalg::Vector& before, double part,
+               linalg::Vector& laws) {
+  for (const model::Load& load : model.loads) {
+    if (load.rigid_row < 0) continue;
+    const int force = load.first_state + 1;
+    laws[force] -= part * (laws[force] - before[force]);
+  }
+}
+
 /// Whether rounds have come to an end: forces that places share are known to less, what they do to
 /// the bodies is not.
 class SettledMotion {
  public:
   explicit SettledMotion(const model::Model& model) : model_(model) {}
 
-  bool look(const model::State& state) {
+  /// @param share of the change that the round was allowed
+  bool look(const model::State& state, double share) {
     const linalg::Vector now = accelerations_of(model_, state);
     const double size = std::max(now.cwiseAbs().maxCoeff(), model_.gravity.norm());
     const double change =
         before_.size() > 0 ? (now - before_).cwiseAbs().maxCoeff() / size : HUGE_VAL;
-    const bool is_rounding = change <= kRoundingOfMotion && change >= 0.5 * change_before_;
+    const bool is_rounding = change <= kRoundingOfMotion * share && change >= 0.5 * change_before_;
     before_ = now;
     change_before_ = change;
-    return !(change > kSameMotion) || is_rounding;
+    return !(change > kSameMotion * share) || is_rounding;
   }
 
  private:
@@ -97,10 +115,13 @@ void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& me
   const bool is_rough = rough != model.loads.end();
   SettledMotion motion(model);
   for (int round = 0; round < kMostRowRounds; ++round) {
+    const linalg::Vector before = state.memory.laws;
     settle_accelerations(model, metric, rows_in_use, state);
     if (model.num_rigid_rows() == 0) return;
     moved = move_rows(model, released, state);
-    if (moved.empty() && (!is_rough || motion.look(state))) return;
+    const double share = share_of(round);
+    if (moved.empty() && (!is_rough || motion.look(state, share))) return;
+    if (moved.empty() && share < 1.0) take_back(model, before, 1.0 - share, state.memory.laws);
   }
   if (moved.empty()) {
     throw NumericalError(fmt::format(

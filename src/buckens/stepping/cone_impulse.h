@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/linalg/matrix_types.h"
+
+namespace buckens::stepping {
+
+/// Impulse of one place where two bodies strike, across the surface and along none to two directions
+/// of it: with w = B P + v, index 0 across,
+///
+///     w₀ ≥ 0,  P₀ ≥ 0,  P₀ w₀ = 0;   |P_t| ≤ μ P₀ and w_t = 0, or P_t = −μ P₀ w_t/|w_t| (I3)
+///
+/// It exists for any v where B is positive definite: P_t is a function of P₀, so w₀ is, too, and it
+/// grows without bound. Cost: some ten eigenvalue problems' worth of a 2×2 matrix.
+/// @param B answers of the rates to the impulses, @param v rates without them
+/// @param coefficient μ, @param none answers up to this are rounding: nothing moves that way
+linalg::Vector cone_impulse(const linalg::Matrix& B, const linalg::Vector& v, double coefficient,
+                            double none);
+
+/// Impulse along the surface, at most of the size `most`, that stops a slip or is against what
+/// remains of it. @param B answers of the slip to it, @param slip without it
+linalg::Vector rub_impulse(const linalg::Matrix& B, const linalg::Vector& slip, double most,
+                           double none);
+
+}  // namespace buckens::stepping

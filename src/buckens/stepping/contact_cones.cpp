@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/stepping/contact_cones.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "buckens/stepping/friction_impulses.h"
+
+namespace buckens::stepping {
+
+using linalg::Matrix;
+using linalg::Vector;
+
+namespace {
+
+// Angle between friction and slip, and share of the cone, that rounding may make.
+constexpr double kAligned = 1e-9;
+constexpr double kInside = 1e-10;
+
+}  // namespace
+
+ContactCones::ContactCones(const model::Model& model) : model_(model), answers_(model) {
+  int soft = 0, rigid_rows = 0;
+  for (const model::Load& load : model.loads) {
+    const auto* law = dynamic_cast<const loads::ContactFriction*>(load.element.get());
+    if (law != nullptr && law->direction() == 0) {
+      places_.push_back({law, load.rigid_row - 1, soft - 1, law->touch().num_directions()});
+    }
+    soft += load.element->num_soft_rows();
+    if (load.rigid_row >= 0) ++rigid_rows;
+  }
+  is_own_.assign(static_cast<std::size_t>(rigid_rows), 0);
+  for (const Place& place : places_) {
+    for (int k = 0; k <= place.count; ++k) {
+      is_own_[static_cast<std::size_t>(place.across + k)] = 1;
+    }
+  }
+}
+
+ContactCones::Now ContactCones::look(const Place& place, const std::vector<loads::RigidRow>& rows,
+                                     const std::vector<loads::RowStand>& stands) {
+  const auto across = static_cast<std::size_t>(place.across);
+  Now out;
+  out.is_pressed = stands[across].regime != 0;
+  out.load = stands[across].force;
+  for (int k = 0; k < place.count; ++k) {
+    const std::size_t along = across + 1 + static_cast<std::size_t>(k);
+    out.slip[k] = rows[along].slip;
+    out.force[k] = rows[along].is_closed ? stands[along].force : rows[along].given;
+    out.sticks = rows[along].is_closed;
+  }
+  return out;
+}
+
+bool ContactCones::holds(const Place& place, const Now& now,
+                         const std::vector<loads::RigidRow>& rows,
+                         const std::vector<loads::RowStand>& stands) {
+  const auto across = static_cast<std::size_t>(place.across);
+  for (std::size_t k = across; k <= across + static_cast<std::size_t>(place.count); ++k) {
+    if (rows[k].next.regime != stands[k].regime) return false;
+  }
+  if (!now.is_pressed || now.sticks) return true;
+  const double speed = now.slip.norm();
+  if (!(speed > place.law->data().at_rest)) return true;
+  return (now.force * speed + now.slip * now.force.norm()).norm() <=
+         kAligned * speed * now.force.norm();
+}
+
+bool ContactCones::hold(const std::vector<loads::RigidRow>& rows,
+                        const std::vector<loads::RowStand>& stands) const {
+  for (const Place& place : places_) {
+    if (!holds(place, look(place, rows, stands), rows, stands)) return false;
+  }
+  return true;
+}
+
+bool ContactCones::decide(const std::vector<loads::RigidRow>& rows, const dynamics::SoftRows& soft,
+                          const std::vector<dynamics::BodyCompliance>& compliance,
+                          const std::vector<dynamics::BodyMotion>& motions,
+                          const std::vector<int>& rows_in_use, const model::RowMemory* memory,
+                          double t, const Scheme& scheme, RigidRows& rigid) {
+  if (!answers_.condense(compliance, motions, rows_in_use, memory, t)) return false;
+  std::vector<const Place*> pressed;
+  for (const Place& place : places_) {
+    if (rigid.stands()[static_cast<std::size_t>(place.across)].regime != 0) {
+      pressed.push_back(&place);
+    }
+  }
+  // Rows across first, as impulses have them; rates in changes of the step's end, forces as there.
+  const auto count = static_cast<Eigen::Index>(pressed.size());
+  std::vector<Push> pushes(pressed.size());
+  std::vector<double> force, change;
+  std::vector<ImpactSlip> slips;
+  for (std::size_t k = 0; k < pressed.size(); ++k) {
+    const Place& place = *pressed[k];
+    const Now now = look(place, rows, rigid.stands());
+    pushes[k].row = soft.rows[static_cast<std::size_t>(place.soft)];
+    force.push_back(now.load);
+    change.push_back(rows[static_cast<std::size_t>(place.across)].slip);
+  }
+  for (std::size_t k = 0; k < pressed.size(); ++k) {
+    const Place& place = *pressed[k];
+    const Now now = look(place, rows, rigid.stands());
+    const auto& data = place.law->data();
+    slips.push_back({static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(pushes.size()),
+                     place.count,
+                     now.sticks ? data.static_coefficient : data.coefficient(now.slip.norm())});
+    for (int m = 0; m < place.count; ++m) {
+      pushes.emplace_back().row = soft.rows[static_cast<std::size_t>(place.soft + 1 + m)];
+      force.push_back(now.force[m]);
+      change.push_back(now.slip[m]);
+    }
+  }
+  for (Push& push : pushes) answers_.answer(push);
+  const auto n = static_cast<Eigen::Index>(pushes.size());
+  Matrix D(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      D(i, j) = PushAnswers::along(pushes[static_cast<std::size_t>(i)].row,
+                                   pushes[static_cast<std::size_t>(j)]);
+    }
+  }
+  // Gyroscopic terms make it a little unsymmetric, and sweeps over places that hold the same drift.
+  D = 0.5 * (D + D.transpose()).eval();
+  const Vector P = scheme.force * Eigen::Map<const Vector>(force.data(), n);
+  const Vector b = D * P - Eigen::Map<const Vector>(change.data(), n) / scheme.end_rate;
+  const Vector next = solve_impact(D, b, count, slips);
+  const Vector slip = scheme.end_rate * (D * next - b);
+  bool has_moved = false;
+  for (std::size_t k = 0; k < pressed.size(); ++k) {
+    const ImpactSlip& own = slips[k];
+    Vector f(1 + own.count);
+    f << next[own.across], next.segment(own.first, own.count);
+    has_moved = put(*pressed[k], f / scheme.force, slip.segment(own.first, own.count).norm(),
+                    rigid) ||
+                has_moved;
+  }
+  return has_moved;
+}
+
+bool ContactCones::put(const Place& place, const Vector& force, double speed,
+                       RigidRows& rigid) const {
+  const auto& data = place.law->data();
+  const Vector along = force.tail(force.size() - 1);
+  const int before = rigid.stands()[static_cast<std::size_t>(place.across) + 1].regime;
+  if (!(force[0] > 0.0)) {
+    bool has_moved = false;
+    for (int k = 0; k <= place.count; ++k) has_moved = rigid.put(place.across + k, {}) || has_moved;
+    return has_moved;
+  }
+  const bool sticks = !(along.norm() > 0.0) || speed <= data.at_rest ||
+                      along.norm() < (1.0 - kInside) * data.dynamic_coefficient * force[0];
+  if (sticks && before == 1) return false;
+  bool has_moved = sticks;
+  int regime = 1;
+  if (!sticks) {
+    // Another number of the regime for another direction.
+    Vector old(place.count);
+    for (int k = 0; k < place.count; ++k) {
+      old[k] = rigid.stands()[static_cast<std::size_t>(place.across + 1 + k)].force;
+    }
+    const bool is_same = before >= loads::ContactFriction::kHeldDirection &&
+                         (old.normalized() - along.normalized()).norm() <= kAligned;
+    if (is_same) return false;
+    regime = std::max(before + 1, loads::ContactFriction::kHeldDirection);
+    has_moved = true;
+  }
+  for (int k = 0; k < place.count; ++k) rigid.put(place.across + 1 + k, {regime, along[k]});
+  return has_moved;
+}
+
+}  // namespace buckens::stepping

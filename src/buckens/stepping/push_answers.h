@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "buckens/dynamics/multiplier_condensation.h"
+#include "buckens/model/model.h"
+#include "buckens/model/state.h"
+#include "buckens/stepping/body_step.h"
+
+namespace buckens::stepping {
+
+/// A row along which something pushes, and what a unit of it does.
+struct Push {
+  dynamics::SystemRow row;
+  std::vector<Vector6> u;               ///< answers of the frames
+  std::vector<Eigen::VectorXd> y;       ///< and of the interfaces
+  std::vector<Eigen::VectorXd> load{};  ///< on interface rows, with what joints add
+};
+
+/// What pushes along rows do to bodies and their joints. Springs take no part.
+class PushAnswers {
+ public:
+  /// @param model must outlive this object
+  explicit PushAnswers(const model::Model& model) : model_(model) {}
+
+  /// @param compliance of each body, must outlive the answers, @param rows_in_use independent rows
+  /// @return false if the joint rows are dependent there
+  bool condense(const std::vector<dynamics::BodyCompliance>& compliance,
+                const std::vector<dynamics::BodyMotion>& motions,
+                const std::vector<int>& rows_in_use, const model::RowMemory* memory, double t);
+  /// Fills all but the row of a push.
+  void answer(Push& push) const;
+  /// What one push does along the row of another.
+  static double along(const dynamics::SystemRow& row, const Push& push);
+
+ private:
+  const model::Model& model_;
+  const std::vector<dynamics::BodyCompliance>* compliance_ = nullptr;
+  std::optional<dynamics::MultiplierCondensation> joints_;  // empty without joint rows
+};
+
+}  // namespace buckens::stepping
