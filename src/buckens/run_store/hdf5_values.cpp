@@ -31,6 +31,15 @@ Hdf5Handle make_space(const std::vector<hsize_t>& shape) {
           H5Sclose};
 }
 
+/// Texts are converted in room that HDF5 fills with zeros for each data set: 1 MiB, unless told
+/// otherwise.
+Hdf5Handle little_room() {
+  constexpr std::size_t kRoom = 1 << 14;
+  Hdf5Handle settings(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
+  H5Pset_buffer(settings.get(), kRoom, nullptr, nullptr);
+  return settings;
+}
+
 std::string place(const std::string& path, const std::string& attribute) {
   return attribute.empty() ? path : path + " (attribute " + attribute + ")";
 }
@@ -56,7 +65,8 @@ void put_dataset(const Hdf5File& file, const std::string& path, hid_t file_type,
                               create_parents().get(), H5P_DEFAULT, H5P_DEFAULT);
   const Hdf5Handle dataset(file.check(id, what), H5Dclose);
   if (H5Sget_simple_extent_npoints(space.get()) == 0) return;
-  file.check(H5Dwrite(dataset.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), what);
+  const Hdf5Handle transfer = little_room();
+  file.check(H5Dwrite(dataset.get(), memory_type, H5S_ALL, H5S_ALL, transfer.get(), values), what);
 }
 
 }  // namespace

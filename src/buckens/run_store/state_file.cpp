@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view kMark = "\nbuckens state\n";
 constexpr std::string_view kHdf5Mark = "\x89HDF";
-constexpr std::size_t kIncrement = 1 << 20;  // by which a file in memory grows
+constexpr std::size_t kIncrement = 1 << 16;  // by which a file in memory grows, filled with zeros
 
 std::string trailer(std::string_view bytes) {
   std::string out = fmt::format("{}format {}\nbytes {}\nchecksum {:016x}\n", kMark, kStateFormat,
