@@ -1,7 +1,7 @@
 # Tests, found by globbing:
 #   src/buckens/<module>/test/*_test.cpp  -> <module>_test      label unit
 #   verification/*/*_test.cpp             -> verification_test  label verify
-#   tests/test_*.py                       -> pytest, one entry per file, label cli
+#   tests/test_*.py                       -> pytest, label cli
 #   tools/check_*                         -> structural checks  label structure
 #   tests/kill/*.cpp                      -> programs used by those
 # The install test stands in BuckensInstall.cmake, the viewer's in BuckensViewer.cmake.
@@ -67,21 +67,66 @@ add_library(kept_by_disk MODULE "${PROJECT_SOURCE_DIR}/tests/power/kept_by_disk.
 set_target_properties(kept_by_disk PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/test")
 target_link_libraries(kept_by_disk PRIVATE buckens_common ${CMAKE_DL_LIBS})
 
-file(GLOB python_tests CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/test_*.py"
-     "${PROJECT_SOURCE_DIR}/tests/*/test_*.py")
-foreach(source IN LISTS python_tests)
-  cmake_path(GET source STEM name)
-  string(REGEX REPLACE "^test_" "" name "${name}")
-  add_test(NAME cli.${name} COMMAND ${BUCKENS_PYTHON} -m pytest -q -p no:cacheprovider ${source})
+# Files that take some seconds of two processors together, or that load the Python module: an entry each, with the seconds
+# of a run, by which ctest starts the longest first and both processors end together. A number need not be kept exact.
+set(BUCKENS_LONG_TESTS
+    attach 24 bad_models 16 belts 12 body_loads 20 contact 10 contacts 9 continue 54 curves 11 damaged_results 60
+    docs_commands 44 doubtful_models 22 elastic_gear 10 error 9 example_warnings 60 examples 16 kill 90 mpi 67 packages 34
+    places 23 python 5 python_arrays 5 python_examples 33 python_memory 5 python_mistakes 5 python_package 20
+    python_results 5 python_signals 5 recycled_solves 21 run 26 save_state 90 shards 20 solver 36 step_parts 130
+    study_dask 27 study_runs 34 study_samples 5)
+# Others share a process: to start Python with pytest and NumPy takes longer than most of them.
+set(BUCKENS_FILES_PER_PROCESS 6)
+
+# buckens_python_test(cost source...): cli.NAME, or cli.NAME.NAME… of several
+function(buckens_python_test cost)
+  set(names "")
+  foreach(source IN LISTS ARGN)
+    cmake_path(GET source STEM name)
+    string(REGEX REPLACE "^test_" "" name "${name}")
+    list(APPEND names "${name}")
+  endforeach()
+  list(JOIN names "." name)
+  add_test(NAME cli.${name} COMMAND ${BUCKENS_PYTHON} -m pytest -q -p no:cacheprovider ${ARGN})
   set_tests_properties(
     cli.${name}
     PROPERTIES
-      LABELS cli TIMEOUT 900
+      LABELS cli TIMEOUT 900 COST ${cost}
       ENVIRONMENT
       "BUCKENS_PROGRAM=${PROJECT_BINARY_DIR}/bin/buckens;BUCKENS_SOURCE_DIR=${PROJECT_SOURCE_DIR};BUCKENS_BINARY_DIR=${PROJECT_BINARY_DIR};PYTHONDONTWRITEBYTECODE=1")
+endfunction()
+
+file(GLOB python_tests CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/test_*.py"
+     "${PROJECT_SOURCE_DIR}/tests/*/test_*.py")
+set(together "")
+foreach(source IN LISTS python_tests)
+  cmake_path(GET source STEM name)
+  string(REGEX REPLACE "^test_" "" name "${name}")
+  list(FIND BUCKENS_LONG_TESTS "${name}" place)
+  if(place GREATER_EQUAL 0)
+    math(EXPR place "${place} + 1")
+    list(GET BUCKENS_LONG_TESTS ${place} cost)
+    buckens_python_test(${cost} "${source}")
+    continue()
+  endif()
+  list(APPEND together "${source}")
+  list(LENGTH together count)
+  if(count EQUAL BUCKENS_FILES_PER_PROCESS)
+    buckens_python_test(20 ${together})
+    set(together "")
+  endif()
 endforeach()
-# Processes that wait for each other: beside other tests they would wait for processors, too.
-set_tests_properties(cli.mpi PROPERTIES PROCESSORS 2)
+if(together)
+  buckens_python_test(20 ${together})
+endif()
+# Processes that wait for each other: beside other tests they would wait for processors, too. What needs all processors
+# comes first, or the others would have to wait for it at the end.
+set_tests_properties(cli.mpi PROPERTIES PROCESSORS 2 COST 1000)
+foreach(test verification_test run_store_test model_file_test linalg_test fem_test mesh_io_test)
+  if(TEST ${test})
+    set_tests_properties(${test} PROPERTIES COST 70)
+  endif()
+endforeach()
 
 foreach(check IN ITEMS equations floors pages sizes streams)
   add_test(NAME structure.${check} COMMAND ${BUCKENS_PYTHON} -B

@@ -37,12 +37,12 @@ if(BUCKENS_TESTS)
       add_test(NAME ${name} COMMAND "${BUCKENS_NPM}" run --silent "${script}"
                WORKING_DIRECTORY "${viewer_dir}")
       # The page tests share one browser's appetite for the processor; they run alone.
-      set_tests_properties(${name} PROPERTIES LABELS viewer TIMEOUT 600 RUN_SERIAL ON)
+      set_tests_properties(${name} PROPERTIES LABELS viewer TIMEOUT 600 RUN_SERIAL ON COST 1000)
     endif()
   endforeach()
   add_test(NAME viewer.test-live
            COMMAND "${BUCKENS_NPM}" run --silent test:live -- $<TARGET_FILE:buckens_program>
                    "${PROJECT_SOURCE_DIR}/tests/models/endless.yaml"
            WORKING_DIRECTORY "${viewer_dir}")
-  set_tests_properties(viewer.test-live PROPERTIES LABELS viewer TIMEOUT 600 RUN_SERIAL ON)
+  set_tests_properties(viewer.test-live PROPERTIES LABELS viewer TIMEOUT 600 RUN_SERIAL ON COST 1000)
 endif()
