@@ -22,6 +22,7 @@ find_package(Threads REQUIRED)
 # The program alone uses these.
 find_package(Cairo REQUIRED)
 find_package(Httplib REQUIRED)
-# Optional: has libFuzzer, for the tests with label fuzz.
+# Optional: has libFuzzer, for the tests with label fuzz, and checks headers.
 find_program(BUCKENS_FUZZ_CLANG NAMES clang++-14 clang++)
 mark_as_advanced(BUCKENS_FUZZ_CLANG)
+set(BUCKENS_WITH_CLANG "${PROJECT_SOURCE_DIR}/tests/fuzz/with_clang.sh" "${BUCKENS_FUZZ_CLANG}")

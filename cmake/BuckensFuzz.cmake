@@ -19,7 +19,6 @@ set(fuzz_cache "")
 if(BUCKENS_CCACHE)
   set(fuzz_cache "${BUCKENS_CCACHE}")
 endif()
-set(BUCKENS_WITH_CLANG "${PROJECT_SOURCE_DIR}/tests/fuzz/with_clang.sh" "${BUCKENS_FUZZ_CLANG}")
 
 function(buckens_fuzz target seconds)
   set(main "${PROJECT_SOURCE_DIR}/tests/fuzz/${target}_fuzz.cpp")

@@ -113,4 +113,9 @@ function(buckens_header_checks)
   # Read once, not a hundred times; that a header forgets to include these goes unnoticed here.
   target_precompile_headers(buckens_headers PRIVATE <Eigen/Dense> <Eigen/Sparse> <fmt/format.h>)
   target_link_libraries(buckens_headers PRIVATE buckens_common ${third_party})
+  if(BUCKENS_FUZZ_CLANG)
+    # clang reads a precompiled header as far as it is needed, and takes half of GCC's time.
+    target_compile_options(buckens_headers PRIVATE -w)
+    set_target_properties(buckens_headers PROPERTIES CXX_COMPILER_LAUNCHER "${BUCKENS_WITH_CLANG};--")
+  endif()
 endfunction()
