@@ -24,6 +24,10 @@ def pytest_sessionstart():
     """Without the program nothing is tested, and that must not look like success."""
     if not os.access(PROGRAM, os.X_OK):
         pytest.exit(f"{PROGRAM}: the program is not built (BUCKENS_PROGRAM says where it is)", 1)
+    # Shells let background jobs ignore SIGINT, and children inherit that. What is caught here has its default in children:
+    # a function to be called in each of them would cost more than to start the program (Python then copies itself).
+    if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def may_mesh_step_files():
@@ -39,11 +43,6 @@ def heed_permissions():
         for capability in (CAP_DAC_OVERRIDE, CAP_DAC_READ_SEARCH):
             if libc.prctl(PR_CAPBSET_DROP, capability, 0, 0, 0) != 0:
                 raise OSError(ctypes.get_errno(), "prctl")
-
-
-def default_signals():
-    """Shells let background jobs ignore SIGINT, and children inherit that."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 class Result:
@@ -68,7 +67,6 @@ def buckens(tmp_path):
 
     def call(*arguments, **options):
         options.setdefault("cwd", tmp_path)
-        options.setdefault("preexec_fn", default_signals)
         options.setdefault("timeout", 300)
         options.setdefault("stdout", subprocess.PIPE)
         return Result(subprocess.run([PROGRAM, *map(str, arguments)], text=True,
@@ -99,7 +97,6 @@ def start(tmp_path):
 
     def call(*arguments, **options):
         options.setdefault("cwd", tmp_path)
-        options.setdefault("preexec_fn", default_signals)
         options.setdefault("stdout", subprocess.PIPE)
         options.setdefault("stderr", subprocess.PIPE)
         process = subprocess.Popen([PROGRAM, *map(str, arguments)], text=True,

@@ -9,7 +9,7 @@ import stat
 import h5py
 import pytest
 
-from conftest import default_signals, heed_permissions
+from conftest import heed_permissions
 
 BEAM = "beam: {to: [1 m, 0, 0], elements: 4, section: {circle: {diameter: 6 mm}}, material: steel}"
 
@@ -195,7 +195,6 @@ def test_disk_full(buckens, models, tmp_path):
     """A limit on the file size simulates a full disk: the same system call fails."""
 
     def limit():
-        default_signals()
         resource.setrlimit(resource.RLIMIT_FSIZE, (200_000, 200_000))
 
     result = buckens("run", models / "endless.yaml", "-o", "out", preexec_fn=limit).must(

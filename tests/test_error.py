@@ -10,7 +10,7 @@ import time
 import numpy
 import pytest
 
-from conftest import PROGRAM, SOURCE, default_signals
+from conftest import PROGRAM, SOURCE
 
 
 @pytest.fixture
@@ -380,8 +380,7 @@ def test_ctrl_c_keeps_the_run(tmp_path):
     (tmp_path / "model.yaml").write_text(
         PENDULUM.replace("duration: 2 s, step: 10 ms", "duration: 20 s, step: 0.1 ms"))
     process = subprocess.Popen([PROGRAM, "run", "model.yaml", "-o", "out", "--error"], cwd=tmp_path,
-                               stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True,
-                               preexec_fn=default_signals)
+                               stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)
     for line in process.stderr:
         if "run 1 of" in line:
             break

@@ -13,8 +13,6 @@ import h5py
 import numpy
 import pytest
 
-from conftest import default_signals
-
 
 def summary_of(directory):
     return json.loads((directory / "summary.json").read_text())
@@ -218,7 +216,6 @@ def test_failure_as_json(buckens, models):
 def test_out_of_memory(buckens, models):
 
     def limit():
-        default_signals()
         resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
 
     options = {"preexec_fn": limit, "env": {**os.environ, "OPENBLAS_NUM_THREADS": "1"}}
