@@ -172,6 +172,13 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
   for (std::size_t k = 0; k < laws_.size(); ++k)
     is_struck = look(k, around, motions, t) || is_struck;
   if (!is_struck) return false;
+  // What the blow presses together, as a stack on the floor, is hit at the same instant.
+  const double rest = strongest_touch().rest;
+  for (Touch& touch : touches_) {
+    if (touch.stays || touch.approach > 0.0) continue;
+    touch.stays = true;
+    touch.rest = rest;
+  }
   const std::vector<dynamics::BodyMotion> then = at_impact(motions);
   condense(then, bodies, rows_in_use, around.memory, t);
   for (Touch& touch : touches_) {
@@ -266,10 +273,13 @@ bool Impacts::look(std::size_t index, const dynamics::Circumstances& around,
   return strikes;
 }
 
+const Impacts::Touch& Impacts::strongest_touch() const {
+  return *std::max_element(touches_.begin(), touches_.end(),
+                           [](const Touch& a, const Touch& b) { return a.approach < b.approach; });
+}
+
 std::vector<dynamics::BodyMotion> Impacts::at_impact(std::vector<dynamics::BodyMotion> motions) {
-  const Touch& strongest =
-      *std::max_element(touches_.begin(), touches_.end(),
-                        [](const Touch& a, const Touch& b) { return a.approach < b.approach; });
+  const Touch& strongest = strongest_touch();
   const bool is_pressed = strongest.stays && strongest.lost_share < kPressed;
   since_impulses_ = is_pressed ? 0.0 : strongest.rest;
   const double back = -since_impulses_;
@@ -381,6 +391,11 @@ void Impacts::move_bodies(const Vector& P) {
 }
 
 void Impacts::land(const Vector& P, const Vector& jump) {
+  double size = 0;  // of rates, to tell them from rounding
+  for (std::size_t k = 0; k < touches_.size(); ++k) {
+    const double change = jump[static_cast<Eigen::Index>(k)];
+    size = std::max(size, std::abs(touches_[k].rate) + std::abs(change));
+  }
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     const Touch& touch = touches_[k];
     const auto i = static_cast<Eigen::Index>(k);
@@ -389,7 +404,7 @@ void Impacts::land(const Vector& P, const Vector& jump) {
       loss_ += touch.lost_share * P[i] * (touch.approach - 0.5 * jump[i]);
     }
     // Driven off by others, or left with the share of its speed: no longer held.
-    const bool leaves = touch.rate + jump[i] > 1e-9 * (std::abs(touch.rate) + std::abs(jump[i]));
+    const bool leaves = touch.rate + jump[i] > 1e-9 * size;
     const bool is_held = touch.stays && !leaves;
     const int rigid_row = model_.loads[laws_[touch.law].load].rigid_row;
     landings_.push_back({rigid_row, is_held ? touch.regime : 0});

@@ -101,6 +101,7 @@ class Impacts {
 
   bool look(std::size_t law, const dynamics::Circumstances& around,
             const std::vector<dynamics::BodyMotion>& motions, double t);
+  const Touch& strongest_touch() const;
   /// Where the bodies were at the strongest of the impacts.
   std::vector<dynamics::BodyMotion> at_impact(std::vector<dynamics::BodyMotion> motions);
   void set_row(std::size_t load, double sign, const std::vector<dynamics::BodyMotion>& motions,
