@@ -363,7 +363,6 @@ PLANE = "shapes: [{plane: {}}, {sphere: 0.1}]"
     (BALL, PLANE + ", stiffness: 1e5, restitution: 0", ["0.01", "found 0"]),
     (BALL, PLANE + ", stiffness: 1e5, modulus: [1 GPa, 1 GPa]", ["remove one of them"]),
     (BALL, "shapes: [{plane: {}}, {box: 0.1}], stiffness: 1e5", ["a list of 3 values"]),
-    (BALL, "shapes: [{plane: {}}, {cylinder: {radius: 0.1, length: 0.1}}]", ["a plane and a cylinder need a `stiffness`"]),
     (BALL, "shapes: [{plane: {}}, {box: [0.1, 0.1, 0.1]}], modulus: [1 GPa, 1 GPa]", ["Hertz has no force for a plane and a box"]),
     (BALL, PLANE + ", stiffness: 1e5, static: 0.2, dynamic: 0.3", ["swap `static` and `dynamic`"]),
     (BALL, PLANE + ", stiffness: 1e5, static: 0.3, dynamic: 0.2", ["stribeck-velocity"]),

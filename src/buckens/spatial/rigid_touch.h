@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "buckens/spatial/marker_motion.h"
+#include "buckens/spatial/touch_surface.h"
 
 namespace buckens::spatial {
 
@@ -23,21 +24,33 @@ struct TouchPlace {
   Eigen::Vector3d velocity(const MarkerMotion& F, const MarkerMotion& M) const;
 };
 
-/// A sphere or a point of M that touches a plane, a sphere or a socket of F in one place.
+/// One place in which shapes of F and M touch.
 ///
 /// Directions in the surface are those of F where the normal is as placed, turned with it on the
 /// shortest way; in planar models the first one lies in the plane. Theory:
 /// docs/theory/25-contact.md §4.
 class RigidTouch {
  public:
-  enum class Surface { plane, sphere, socket };
+  enum class Feature {
+    point_of_second,  ///< a sphere or a point of M at the surface of F
+    point_of_first,   ///< a sphere or a point of F at the surface of M
+    rim,              ///< the lowest point of a rim of M on the plane of F; it moves along the rim
+    axes,             ///< the nearest places of two capsules
+    boxes             ///< spatial/box_touch.h
+  };
   struct Data {
-    Surface surface = Surface::plane;
-    /// Unit vector in F: of a plane its normal; of others the normal as placed.
+    Feature feature = Feature::point_of_second;
+    TouchSurface surface;  ///< of F; with point_of_first: of M
+    TouchSurface second;   ///< of M, a box
+    int direction = 0;     ///< of two boxes
+    /// Unit vector in F: normal as placed.
+    Eigen::Vector3d pole = Eigen::Vector3d::UnitZ();
+    double radius = 0;  ///< of the sphere, the rim or the second capsule [m]
+    /// Centre of the sphere or the rim, in axes of its marker [m].
+    Eigen::Vector3d at = Eigen::Vector3d::Zero();
+    /// Of the rim and the second capsule, in M: unit vector.
     Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
-    double first_radius = 0;                           ///< of a sphere or socket of F [m]
-    double radius = 0;                                 ///< of the sphere of M [m]
-    Eigen::Vector3d at = Eigen::Vector3d::Zero();      ///< its centre in M, at planes only [m]
+    double half_length = 0;                            ///< of the second capsule [m]
     std::optional<Eigen::Vector3d> out_of_plane = {};  ///< unit vector in F of planar models
   };
   explicit RigidTouch(const Data& data) : data_(data) {}
@@ -47,8 +60,11 @@ class RigidTouch {
   int num_directions() const { return data_.out_of_plane ? 1 : 2; }
 
  private:
-  void look_at_plane(const MarkerMotion& F, const MarkerMotion& M, TouchPlace& out) const;
-  void look_at_sphere(const MarkerMotion& F, const MarkerMotion& M, TouchPlace& out) const;
+  /// A point of `owner` at the surface of `other`, the normal out of that.
+  void look_at_surface(const MarkerMotion& other, const MarkerMotion& owner, TouchPlace& out) const;
+  void look_at_rim(const MarkerMotion& F, const MarkerMotion& M, TouchPlace& out) const;
+  void look_at_axes(const MarkerMotion& F, const MarkerMotion& M, TouchPlace& out) const;
+  void set_directions(const MarkerMotion& F, TouchPlace& out) const;
 
   Data data_;
 };

@@ -15,6 +15,7 @@
 #include "buckens/loads/elastic_contact.h"
 #include "buckens/loads/rigid_law.h"
 #include "buckens/model/build/contact_shapes.h"
+#include "buckens/model/build/rigid_touches.h"
 
 namespace buckens::model {
 
@@ -77,7 +78,7 @@ class ContactBuilder {
     if (!is_centred(pair.first())) find_.require_moment(load_.first, what_, where_);
     if (!is_centred(pair.second())) find_.require_moment(load_.second, what_, where_);
     const bool is_rigid = !spec_.stiffness && !spec_.modulus;
-    const bool has_feet = is_rigid && feet(pair.second()).size() > 1;
+    const bool has_feet = is_rigid && touches(pair).size() > 1;
     if (spec_.coefficient == 0.0 && !has_feet) return;
     for (const MarkerId* id : {&load_.first, &load_.second}) require_inertia(*id);
   }
@@ -158,47 +159,10 @@ class ContactBuilder {
     return static_cast<int>(all.size()) - 1;
   }
 
-  /// Centres of the spheres, or points, of a shape that can lie on a plane; in its own axes.
-  static std::vector<Vector3d> feet(const ContactShape& shape) {
-    if (shape.kind == ShapeKind::capsule) {
-      return {shape.half_length * shape.axis, -shape.half_length * shape.axis};
-    }
-    if (shape.kind != ShapeKind::box) return {Vector3d::Zero()};
-    std::vector<Vector3d> out = {Vector3d::Zero()};
-    for (int axis = 0; axis < 3; ++axis) {
-      if (axis == shape.flat) continue;
-      const Vector3d half = shape.half[axis] * Vector3d::Unit(axis);
-      for (std::size_t k = out.size(); k-- > 0;) {
-        out.push_back(out[k] - half);
-        out[k] += half;
-      }
-    }
-    return out;
-  }
-
-  /// Between two centres, or a plane and the points of the other body that can lie on it.
   std::vector<spatial::RigidTouch> touches(const loads::ContactPair& pair) const {
-    spatial::RigidTouch::Data data;
-    data.radius = pair.second().radius;
-    data.first_radius = pair.first().radius;
-    const joints::Placement placed = find_.placement(load_.first, load_.second);
-    if (find_.model().planar) {
-      data.out_of_plane = placed.R_WF.transpose() * spatial::normal(*find_.model().planar);
-    }
-    if (pair.first().kind == ShapeKind::plane) {
-      data.axis = pair.first().axis;
-      std::vector<spatial::RigidTouch> out;
-      for (const Vector3d& at : feet(pair.second())) {
-        data.at = at;
-        out.emplace_back(data);
-      }
-      return out;
-    }
-    const bool is_inside = pair.first().kind != ShapeKind::sphere;
-    data.surface =
-        is_inside ? spatial::RigidTouch::Surface::socket : spatial::RigidTouch::Surface::sphere;
-    if (placed.r_F.norm() > 0.0) data.axis = (is_inside ? -1.0 : 1.0) * placed.r_F.normalized();
-    return {spatial::RigidTouch(data)};
+    std::optional<Vector3d> normal;
+    if (find_.model().planar) normal = spatial::normal(*find_.model().planar);
+    return rigid_touches(pair, find_.placement(load_.first, load_.second), normal);
   }
 
   void set_rigid(const loads::ContactPair& pair) {

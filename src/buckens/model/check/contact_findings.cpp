@@ -82,8 +82,16 @@ Found pair_problem(const loads::ContactSpec& spec) {
   return does_not_fit("bore", bore->radius, sphere != nullptr ? sphere->radius : cylinder->radius);
 }
 
-/// Keys that only elastic contacts have.
-Found rigid_problem(const loads::ContactSpec& spec, const ModelDescription& model) {
+bool touch_rigidly(loads::ContactShape::Kind first, loads::ContactShape::Kind second) {
+  using enum loads::ContactShape::Kind;
+  if (second == sphere) return first != mesh;
+  if (first == plane) return second != mesh;
+  return (first == bore && second == cylinder) ||
+         (first == second && (first == capsule || first == box));
+}
+
+/// Keys and shapes that only elastic contacts have.
+Found rigid_problem(const loads::ContactSpec& spec) {
   const auto needs_stiffness = [](const char* key) {
     return Finding{key,
                    "without `stiffness` or `modulus` the contact is rigid, and this has no "
@@ -92,16 +100,15 @@ Found rigid_problem(const loads::ContactSpec& spec, const ModelDescription& mode
   if (spec.damping > 0.0) return needs_stiffness("damping");
   if (spec.exponent) return needs_stiffness("exponent");
   if (spec.tangential) return needs_stiffness("tangential-stiffness");
-  const bool is_known = is_pair(spec, "sphere", "plane") || is_pair(spec, "sphere", "sphere") ||
-                        is_pair(spec, "sphere", "socket") || is_pair(spec, "plane", "capsule") ||
-                        is_pair(spec, "plane", "box") ||
-                        (model.planar && is_pair(spec, "sphere", "bore"));
-  if (is_known) return std::nullopt;
-  return Finding{
-      "shapes", fmt::format("a {} and a {} need a `stiffness`; rigid contacts are those "
-                            "of a sphere with a plane, a sphere or a socket, and of a plane with a "
-                            "capsule or a box",
-                            spec.shapes[0].touches_as(), spec.shapes[1].touches_as())};
+  for (const auto& [first, second] : loads::ContactPair::all()) {
+    if (!is_pair(spec, loads::to_string(first), loads::to_string(second))) continue;
+    if (touch_rigidly(first, second)) return std::nullopt;
+  }
+  return Finding{"shapes",
+                 fmt::format("a {} and a {} need a `stiffness`; rigid contacts are those "
+                             "of a sphere or a plane with anything but a surface of triangles, of "
+                             "a pin in a bore, of two capsules and of two boxes",
+                             spec.shapes[0].touches_as(), spec.shapes[1].touches_as())};
 }
 
 Found restitution_problem(const loads::ContactForceSpec& spec) {
@@ -224,14 +231,14 @@ Found kinds_problem(const loads::ContactsSpec& spec) {
 
 }  // namespace
 
-Found own_joint_problem(const loads::ContactSpec& spec, const ModelDescription& model) {
+Found own_joint_problem(const loads::ContactSpec& spec, const ModelDescription& /*model*/) {
   for (const ShapeSpec& shape : spec.shapes) {
     if (Found found = direction_problem(shape)) return found;
   }
   if (Found found = pair_problem(spec)) return found;
   if (Found found = restitution_problem(spec)) return found;
   if (!spec.stiffness && !spec.modulus) {
-    if (Found found = rigid_problem(spec, model)) return found;
+    if (Found found = rigid_problem(spec)) return found;
   }
   if (spec.stiffness || spec.modulus || spec.poisson) {
     if (Found found = elastic_problem(spec)) return found;

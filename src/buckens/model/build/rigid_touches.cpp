@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/model/build/rigid_touches.h"
+
+#include <cmath>
+#include <utility>
+
+#include "buckens/spatial/box_touch.h"
+
+namespace buckens::model {
+
+using Eigen::Vector3d;
+using loads::ContactShape;
+using spatial::RigidTouch;
+using spatial::TouchSurface;
+using ShapeKind = ContactShape::Kind;
+using Feature = RigidTouch::Feature;
+
+namespace {
+
+// Share of the radius at which points lie that stay on an end.
+constexpr double kInsideRim = 0.9999;
+
+TouchSurface surface_of(const ContactShape& shape) {
+  TouchSurface out;
+  switch (shape.kind) {
+    case ShapeKind::plane:
+    case ShapeKind::mesh:  // has no rigid touch
+      out.kind = TouchSurface::Kind::plane;
+      break;
+    case ShapeKind::sphere:
+      out.kind = TouchSurface::Kind::sphere;
+      break;
+    case ShapeKind::socket:
+      out.kind = TouchSurface::Kind::socket;
+      break;
+    case ShapeKind::bore:
+      out.kind = TouchSurface::Kind::bore;
+      break;
+    case ShapeKind::capsule:
+      out.kind = TouchSurface::Kind::capsule;
+      break;
+    case ShapeKind::cylinder:
+      out.kind = TouchSurface::Kind::cylinder;
+      break;
+    case ShapeKind::box:
+      out.kind = TouchSurface::Kind::box;
+      break;
+  }
+  out.axis = shape.axis;
+  out.radius = shape.radius;
+  out.half_length = shape.half_length;
+  out.half = shape.half;
+  out.flat = shape.flat;
+  return out;
+}
+
+std::vector<Vector3d> ends_of(const ContactShape& shape) {
+  return {shape.half_length * shape.axis, -shape.half_length * shape.axis};
+}
+
+std::vector<Vector3d> corners_of(const ContactShape& shape) {
+  std::vector<Vector3d> out = {Vector3d::Zero()};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis == shape.flat) continue;
+    const Vector3d half = shape.half[axis] * Vector3d::Unit(axis);
+    for (std::size_t k = out.size(); k-- > 0;) {
+      out.push_back(out[k] - half);
+      out[k] += half;
+    }
+  }
+  return out;
+}
+
+class TouchList {
+ public:
+  TouchList(const loads::ContactPair& pair, const joints::Placement& placed,
+            const std::optional<Vector3d>& normal)
+      : first_(pair.first()), second_(pair.second()) {
+    M_.p = placed.r_F;
+    M_.R = placed.R_WF.transpose() * placed.R_WM;
+    if (normal) out_of_plane_ = placed.R_WF.transpose() * *normal;
+  }
+
+  std::vector<RigidTouch> find() {
+    if (first_.kind == ShapeKind::capsule && second_.kind == ShapeKind::capsule) {
+      add_capsules();
+    } else if (first_.kind == ShapeKind::box && second_.kind == ShapeKind::box) {
+      add_boxes();
+    } else if (second_.kind == ShapeKind::cylinder && first_.kind == ShapeKind::plane) {
+      add_rim(1.0);
+      add_rim(-1.0);
+    } else {
+      add_points(Feature::point_of_second, first_, second_);
+    }
+    return std::move(touches_);
+  }
+
+ private:
+  /// @param surface that the spheres, ends or corners of the other shape touch
+  void add_points(Feature feature, const ContactShape& surface, const ContactShape& points) {
+    RigidTouch::Data data;
+    data.feature = feature;
+    data.surface = surface_of(surface);
+    const bool has_corners = points.kind == ShapeKind::box;
+    const bool has_ends = points.kind == ShapeKind::capsule || points.kind == ShapeKind::cylinder;
+    data.radius = has_corners ? 0.0 : points.radius;
+    if (has_corners) return add(data, corners_of(points));
+    add(data, has_ends ? ends_of(points) : std::vector<Vector3d>{Vector3d::Zero()});
+  }
+
+  /// Ends at the other one's side hold capsules that lie side by side; those that cross touch
+  /// between their ends.
+  void add_capsules() {
+    add_points(Feature::point_of_second, first_, second_);
+    add_points(Feature::point_of_first, second_, first_);
+    if (out_of_plane_) return;
+    RigidTouch::Data data;
+    data.feature = Feature::axes;
+    data.surface = surface_of(first_);
+    data.radius = second_.radius;
+    data.axis = second_.axis;
+    data.half_length = second_.half_length;
+    add(data, {Vector3d::Zero()});
+  }
+
+  void add_boxes() {
+    RigidTouch::Data data;
+    data.feature = Feature::boxes;
+    data.surface = surface_of(first_);
+    data.second = surface_of(second_);
+    const int count = out_of_plane_ ? 2 : spatial::kBoxDirections;
+    for (data.direction = 0; data.direction < count; ++data.direction) {
+      add(data, {Vector3d::Zero()});
+    }
+  }
+
+  /// The lowest point of an end, and four that stay where they are on it, so that it can stand.
+  void add_rim(double end) {
+    RigidTouch::Data data;
+    data.feature = Feature::rim;
+    data.surface = surface_of(first_);
+    data.radius = second_.radius;
+    data.axis = second_.axis;
+    const Vector3d middle = end * second_.half_length * second_.axis;
+    add(data, {middle});
+    // Between the lowest point as placed and its opposite, and hardly inside the rim: what rolls
+    // does not touch with them.
+    const Vector3d rim = M_.R.transpose() * (touches_.back().look(F_, M_).place - M_.p) - middle;
+    const Vector3d lowest = kInsideRim * rim;
+    const Vector3d across = second_.axis.cross(lowest);
+    RigidTouch::Data fixed;
+    fixed.surface = data.surface;
+    add(fixed, {middle + M_SQRT1_2 * (lowest + across), middle + M_SQRT1_2 * (lowest - across),
+                middle - M_SQRT1_2 * (lowest + across), middle - M_SQRT1_2 * (lowest - across)});
+  }
+
+  void add(RigidTouch::Data data, const std::vector<Vector3d>& places) {
+    data.out_of_plane = out_of_plane_;
+    for (const Vector3d& at : places) {
+      data.at = at;
+      data.pole = RigidTouch(data).look(F_, M_).normal;
+      touches_.emplace_back(data);
+    }
+  }
+
+  const ContactShape &first_, &second_;
+  spatial::MarkerMotion F_, M_;  // as placed, in axes of the first marker
+  std::optional<Vector3d> out_of_plane_;
+  std::vector<RigidTouch> touches_;
+};
+
+}  // namespace
+
+std::vector<RigidTouch> rigid_touches(const loads::ContactPair& pair,
+                                      const joints::Placement& placed,
+                                      const std::optional<Vector3d>& normal) {
+  return TouchList(pair, placed, normal).find();
+}
+
+}  // namespace buckens::model

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Dense>
+
+namespace buckens::spatial {
+
+/// A surface about a marker, in the marker's axes. Its distance from a point is exact.
+struct TouchSurface {
+  enum class Kind { plane, sphere, socket, bore, capsule, cylinder, box };
+
+  Kind kind = Kind::plane;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector; of a plane: its normal
+  double radius = 0;                                ///< [m]
+  double half_length = 0;                           ///< of capsules and cylinders [m]
+  Eigen::Vector3d half = Eigen::Vector3d::Zero();   ///< half the edges of a box [m]
+  int flat = -1;  ///< axis of a box that points out of the plane of a planar model, −1: none
+
+  /// What a point sees of it.
+  struct View {
+    double distance = 0;                                  ///< negative: inside the solid [m]
+    Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();    ///< gradient of the distance
+    Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();  ///< its second derivatives [1/m]
+  };
+  View look(const Eigen::Vector3d& point) const;
+
+ private:
+  View from_centre(const Eigen::Vector3d& out, const Eigen::Matrix3d& across, double sign) const;
+  View from_cylinder(const Eigen::Vector3d& point) const;
+  View from_box(const Eigen::Vector3d& point) const;
+};
+
+}  // namespace buckens::spatial
