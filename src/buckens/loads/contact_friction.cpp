@@ -11,6 +11,8 @@ namespace {
 
 // A force beyond the cone by this share is rounding, above all where places share a load.
 constexpr double kOnCone = 1e-9;
+// A force along the surface by this share of what presses is rounding of directions.
+constexpr double kNoForce = 1e-13;
 // Cosine of the angle by which the direction of sliding may turn within a step. What turns more is
 // about to stand still: friction that turned with it would have no end.
 constexpr double kGoesOn = 0.5;
@@ -37,6 +39,7 @@ ContactFriction::Slip ContactFriction::slip(const Sight& sight) const {
     out.velocity[k] = along.dot(v);
     out.force[k] = along.dot(sight.reaction.force);
   }
+  if (out.force.norm() <= kNoForce * std::abs(out.load)) out.force.setZero();
   out.speed = out.velocity.norm();
   if (out.force.norm() > 0.0) out.towards = -out.force.normalized();
   if (sight.stand.regime >= kHeldDirection) return out;

@@ -19,8 +19,9 @@ struct ContactFrictionData {
 
 /// Dry friction in one place of a rigid contact along one direction of its surface: a row that
 /// closes the rate there as long as the cone |f| ≤ μ N of all its directions admits the force.
-/// Regimes: 0 the bodies do not press; 1 sticks; 2 slides, with μ N against the slip; kHeldDirection
-/// and more: slides with μ N in the direction of the stand's force, which the step has found.
+/// Regimes: 0 the bodies do not press; 1 sticks; 2 slides, with μ N against the slip;
+/// kHeldDirection and more: slides with μ N in the direction of the stand's force, which the step
+/// has found.
 ///
 /// Its coordinate is a joints::ContactWay. The load before those of the directions is the one-sided
 /// row across the surface; Sight::reaction is the force of all these rows.

@@ -65,8 +65,8 @@ class Rubbing {
     return out;
   }
 
-  /// Ratio s of the slip that remains to the impulse with |(B + s)⁻¹ v| = `most`: Newton's method on
-  /// the inverse of that size, which is nearly linear in s, between bounds.
+  /// Ratio s of the slip that remains to the impulse with |(B + s)⁻¹ v| = `most`: Newton's method
+  /// on the inverse of that size, which is nearly linear in s, between bounds.
   double remaining_slip(const Vector& parts, double most) const {
     double low = 0.0, high = parts.norm() / most;
     double s = 0.0;

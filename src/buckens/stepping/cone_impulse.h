@@ -5,8 +5,8 @@
 
 namespace buckens::stepping {
 
-/// Impulse of one place where two bodies strike, across the surface and along none to two directions
-/// of it: with w = B P + v, index 0 across,
+/// Impulse of one place where two bodies strike, across the surface and along none to two
+/// directions of it: with w = B P + v, index 0 across,
 ///
 ///     w₀ ≥ 0,  P₀ ≥ 0,  P₀ w₀ = 0;   |P_t| ≤ μ P₀ and w_t = 0, or P_t = −μ P₀ w_t/|w_t| (I3)
 ///

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "buckens/stepping/friction_impulses.h"
-
 namespace buckens::stepping {
 
 using linalg::Matrix;
@@ -16,10 +14,12 @@ namespace {
 // Angle between friction and slip, and share of the cone, that rounding may make.
 constexpr double kAligned = 1e-9;
 constexpr double kInside = 1e-10;
+// Rates by this share of what forces do to them are rounding.
+constexpr double kNoRate = 1e-9;
 
 }  // namespace
 
-ContactCones::ContactCones(const model::Model& model) : model_(model), answers_(model) {
+ContactCones::ContactCones(const model::Model& model) : answers_(model) {
   int soft = 0, rigid_rows = 0;
   for (const model::Load& load : model.loads) {
     const auto* law = dynamic_cast<const loads::ContactFriction*>(load.element.get());
@@ -74,66 +74,79 @@ bool ContactCones::hold(const std::vector<loads::RigidRow>& rows,
   return true;
 }
 
+ContactCones::Pressed ContactCones::gather(const std::vector<loads::RigidRow>& rows,
+                                           const dynamics::SoftRows& soft,
+                                           const std::vector<loads::RowStand>& stands) const {
+  Pressed out;
+  const auto add = [&](int soft_row, double force, double rate) {
+    out.pushes.emplace_back().row = soft.rows[static_cast<std::size_t>(soft_row)];
+    out.force.push_back(force);
+    out.rate.push_back(rate);
+  };
+  for (const Place& place : places_) {
+    const Now now = look(place, rows, stands);
+    if (!now.is_pressed) continue;
+    out.places.push_back(&place);
+    add(place.soft, now.load, rows[static_cast<std::size_t>(place.across)].slip);
+  }
+  for (std::size_t k = 0; k < out.places.size(); ++k) {
+    const Place& place = *out.places[k];
+    const Now now = look(place, rows, stands);
+    const auto& data = place.law->data();
+    out.slips.push_back({static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(out.pushes.size()),
+                         place.count,
+                         now.sticks ? data.static_coefficient : data.coefficient(now.slip.norm())});
+    for (int m = 0; m < place.count; ++m) add(place.soft + 1 + m, now.force[m], now.slip[m]);
+  }
+  return out;
+}
+
 bool ContactCones::decide(const std::vector<loads::RigidRow>& rows, const dynamics::SoftRows& soft,
                           const std::vector<dynamics::BodyCompliance>& compliance,
                           const std::vector<dynamics::BodyMotion>& motions,
                           const std::vector<int>& rows_in_use, const model::RowMemory* memory,
                           double t, const Scheme& scheme, RigidRows& rigid) {
-  if (!answers_.condense(compliance, motions, rows_in_use, memory, t)) return false;
-  std::vector<const Place*> pressed;
+  // Other rigid rows, as stops and locks, go on as they stand.
+  std::vector<dynamics::SystemRow> others;
+  for (std::size_t k = 0; k < soft.rows.size(); ++k) {
+    const int row = soft.rigid[k];
+    if (soft.is_closed[k] && row >= 0 && is_own_[static_cast<std::size_t>(row)] == 0) {
+      others.push_back(soft.rows[k]);
+    }
+  }
+  if (!answers_.condense(compliance, motions, rows_in_use, memory, t, others)) return false;
+  bool has_moved = false;
   for (const Place& place : places_) {
-    if (rigid.stands()[static_cast<std::size_t>(place.across)].regime != 0) {
-      pressed.push_back(&place);
-    }
+    if (rigid.stands()[static_cast<std::size_t>(place.across)].regime != 0) continue;
+    for (int k = 1; k <= place.count; ++k) has_moved = rigid.put(place.across + k, {}) || has_moved;
   }
-  // Rows across first, as impulses have them; rates in changes of the step's end, forces as there.
-  const auto count = static_cast<Eigen::Index>(pressed.size());
-  std::vector<Push> pushes(pressed.size());
-  std::vector<double> force, change;
-  std::vector<ImpactSlip> slips;
-  for (std::size_t k = 0; k < pressed.size(); ++k) {
-    const Place& place = *pressed[k];
-    const Now now = look(place, rows, rigid.stands());
-    pushes[k].row = soft.rows[static_cast<std::size_t>(place.soft)];
-    force.push_back(now.load);
-    change.push_back(rows[static_cast<std::size_t>(place.across)].slip);
-  }
-  for (std::size_t k = 0; k < pressed.size(); ++k) {
-    const Place& place = *pressed[k];
-    const Now now = look(place, rows, rigid.stands());
-    const auto& data = place.law->data();
-    slips.push_back({static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(pushes.size()),
-                     place.count,
-                     now.sticks ? data.static_coefficient : data.coefficient(now.slip.norm())});
-    for (int m = 0; m < place.count; ++m) {
-      pushes.emplace_back().row = soft.rows[static_cast<std::size_t>(place.soft + 1 + m)];
-      force.push_back(now.force[m]);
-      change.push_back(now.slip[m]);
-    }
-  }
-  for (Push& push : pushes) answers_.answer(push);
-  const auto n = static_cast<Eigen::Index>(pushes.size());
+  Pressed now = gather(rows, soft, rigid.stands());
+  if (now.places.empty()) return has_moved;
+  for (Push& push : now.pushes) answers_.answer(push);
+  const auto n = static_cast<Eigen::Index>(now.pushes.size());
   Matrix D(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < n; ++j) {
-      D(i, j) = PushAnswers::along(pushes[static_cast<std::size_t>(i)].row,
-                                   pushes[static_cast<std::size_t>(j)]);
+      D(i, j) = PushAnswers::along(now.pushes[static_cast<std::size_t>(i)].row,
+                                   now.pushes[static_cast<std::size_t>(j)]);
     }
   }
   // Gyroscopic terms make it a little unsymmetric, and sweeps over places that hold the same drift.
   D = 0.5 * (D + D.transpose()).eval();
-  const Vector P = scheme.force * Eigen::Map<const Vector>(force.data(), n);
-  const Vector b = D * P - Eigen::Map<const Vector>(change.data(), n) / scheme.end_rate;
-  const Vector next = solve_impact(D, b, count, slips);
-  const Vector slip = scheme.end_rate * (D * next - b);
-  bool has_moved = false;
-  for (std::size_t k = 0; k < pressed.size(); ++k) {
-    const ImpactSlip& own = slips[k];
-    Vector f(1 + own.count);
-    f << next[own.across], next.segment(own.first, own.count);
-    has_moved = put(*pressed[k], f / scheme.force, slip.segment(own.first, own.count).norm(),
-                    rigid) ||
-                has_moved;
+  // Rates in changes of the step's end.
+  const Vector P = scheme.force * Eigen::Map<const Vector>(now.force.data(), n);
+  const Vector b = D * P - Eigen::Map<const Vector>(now.rate.data(), n) / scheme.end_rate;
+  const Vector next = solve_impact(D, b, std::ssize(now.places), now.slips);
+  const Vector rates = scheme.end_rate * (D * next - b);
+  const double none = kNoRate * scheme.end_rate * (D.cwiseAbs() * next.cwiseAbs()).maxCoeff();
+  for (std::size_t k = 0; k < now.places.size(); ++k) {
+    const ImpactSlip& own = now.slips[k];
+    Vector force(1 + own.count);
+    force << next[own.across], next.segment(own.first, own.count);
+    // What others hold as well need not press, and stays.
+    if (!(force[0] > 0.0) && rates[own.across] <= none) continue;
+    const double speed = rates.segment(own.first, own.count).norm();
+    has_moved = put(*now.places[k], force / scheme.force, speed, rigid) || has_moved;
   }
   return has_moved;
 }

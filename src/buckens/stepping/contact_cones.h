@@ -5,14 +5,15 @@
 
 #include "buckens/dynamics/forces.h"
 #include "buckens/loads/contact_friction.h"
+#include "buckens/stepping/friction_impulses.h"
 #include "buckens/stepping/push_answers.h"
 #include "buckens/stepping/rigid_rows.h"
 #include "buckens/stepping/scheme.h"
 
 namespace buckens::stepping {
 
-/// Rigid contacts with friction in the iteration of a step: which places let go, stick or slide, and
-/// which way, is decided for all of them together.
+/// Rigid contacts with friction in the iteration of a step: which places let go, stick or slide,
+/// and which way, is decided for all of them together.
 ///
 /// From the forces and rates that the iteration has come to, forces are found that satisfy (I1) and
 /// (I2) with what the rates change by them; rows then stand accordingly. Alone, each would know but
@@ -31,9 +32,8 @@ class ContactCones {
   /// @param compliance of the bodies in the step [m/N] @return whether any row stands otherwise
   bool decide(const std::vector<loads::RigidRow>& rows, const dynamics::SoftRows& soft,
               const std::vector<dynamics::BodyCompliance>& compliance,
-              const std::vector<dynamics::BodyMotion>& motions,
-              const std::vector<int>& rows_in_use, const model::RowMemory* memory, double t,
-              const Scheme& scheme, RigidRows& rigid);
+              const std::vector<dynamics::BodyMotion>& motions, const std::vector<int>& rows_in_use,
+              const model::RowMemory* memory, double t, const Scheme& scheme, RigidRows& rigid);
 
  private:
   /// One place: its row across and those along, which follow it.
@@ -43,20 +43,28 @@ class ContactCones {
     int soft = 0;    ///< the same among the soft rows
     int count = 1;   ///< of directions
   };
-  /// What a place has: across first.
+  /// What a place has in the iteration.
   struct Now {
-    double load = 0;                                    ///< across [N]
-    Eigen::Vector2d slip = Eigen::Vector2d::Zero();     ///< [m/s]
-    Eigen::Vector2d force = Eigen::Vector2d::Zero();    ///< along [N]
+    double load = 0;                                  ///< across [N]
+    Eigen::Vector2d slip = Eigen::Vector2d::Zero();   ///< [m/s]
+    Eigen::Vector2d force = Eigen::Vector2d::Zero();  ///< along [N]
     bool is_pressed = false, sticks = false;
   };
+  /// The places that press, with the rows along which they push: first all those across.
+  struct Pressed {
+    std::vector<const Place*> places;
+    std::vector<Push> pushes;
+    std::vector<double> force, rate;  // of each push [N], [m/s]
+    std::vector<ImpactSlip> slips;
+  };
+  Pressed gather(const std::vector<loads::RigidRow>& rows, const dynamics::SoftRows& soft,
+                 const std::vector<loads::RowStand>& stands) const;
   static Now look(const Place& place, const std::vector<loads::RigidRow>& rows,
                   const std::vector<loads::RowStand>& stands);
   static bool holds(const Place& place, const Now& now, const std::vector<loads::RigidRow>& rows,
                     const std::vector<loads::RowStand>& stands);
   bool put(const Place& place, const linalg::Vector& force, double speed, RigidRows& rigid) const;
 
-  const model::Model& model_;
   PushAnswers answers_;
   std::vector<Place> places_;
   std::vector<char> is_own_;

@@ -21,9 +21,9 @@ namespace {
 constexpr double kSameRates = 1e-14;
 constexpr double kRoundingOfRates = 1e-10;
 // Answers by this share of the largest answer of all.
-constexpr double kNoAnswer = 1e-12;
-// Impulses across and along in turn, with sweeps over the latter; place by place; the same by half
-// of each change, where that goes to and fro; and blows one after the other.
+constexpr double kNoAnswerOfPlace = 1e-12;
+// Impulses across and along in turn, with sweeps over the latter; all places held; place by place;
+// the same by half of each change, where that goes to and fro; and blows one after the other.
 constexpr int kMostAgreements = 50;
 constexpr int kMostSlipSweeps = 1000;
 constexpr int kMostSweeps = 500;
@@ -35,7 +35,7 @@ class Places {
  public:
   Places(const Matrix& D, const Vector& b, Eigen::Index num_across,
          const std::vector<ImpactSlip>& slips)
-      : D_(D), b_(b), none_(kNoAnswer * D.diagonal().maxCoeff()) {
+      : D_(D), b_(b), none_(kNoAnswerOfPlace * D.diagonal().maxCoeff()) {
     for (Eigen::Index across = 0; across < num_across; ++across) {
       places_.push_back({{across}, {}, 0.0});
     }
@@ -47,8 +47,8 @@ class Places {
     for (Place& place : places_) place.answers = D(place.rows, place.rows);
   }
 
-  /// The impulses of (I1) and (I2): all those across with those along, and the other way round. What
-  /// holds the same is shared alike. @return whether both agree
+  /// The impulses of (I1) and (I2): all those across with those along, and the other way round.
+  /// What holds the same is shared alike. @return whether both agree
   bool agree(Vector& P) const {
     const auto count = static_cast<Eigen::Index>(places_.size());
     const auto across = Eigen::seqN(Eigen::Index{0}, count);
@@ -143,9 +143,7 @@ class Places {
     return D_(place.rows, Eigen::all) * P - b_(place.rows);
   }
   /// What impulses do to the rates at most.
-  double size_of_rates(const Vector& P) const {
-    return (D_.cwiseAbs() * P.cwiseAbs()).maxCoeff();
-  }
+  double size_of_rates(const Vector& P) const { return (D_.cwiseAbs() * P.cwiseAbs()).maxCoeff(); }
 
   const Matrix& D_;
   const Vector& b_;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "buckens/dynamics/constraints.h"
+#include "buckens/stepping/rigid_rows.h"
 
 namespace buckens::stepping {
 
@@ -12,17 +13,22 @@ using linalg::Vector;
 bool PushAnswers::condense(const std::vector<dynamics::BodyCompliance>& compliance,
                            const std::vector<dynamics::BodyMotion>& motions,
                            const std::vector<int>& rows_in_use, const model::RowMemory* memory,
-                           double t) {
+                           double t, const std::vector<dynamics::SystemRow>& closed) {
   compliance_ = &compliance;
   joints_.reset();
-  if (rows_in_use.empty()) return true;
+  if (rows_in_use.empty() && closed.empty()) return true;
   dynamics::Constraints all;
   dynamics::evaluate_constraints(model_, motions, t, memory, all);
   std::vector<dynamics::SystemRow> rows;
   rows.reserve(rows_in_use.size());
   for (const int row : rows_in_use) rows.push_back(all.rows[static_cast<std::size_t>(row)]);
+  std::vector<double> give;
+  for (const dynamics::SystemRow& row : closed) {
+    rows.push_back(row);
+    give.push_back(kRigidGive * own_compliance(row, compliance));
+  }
   joints_.emplace(static_cast<int>(motions.size()), rows);
-  return joints_->factorise(rows, rows, compliance, {});
+  return factorise_closed_rows(*joints_, rows, compliance, give);
 }
 
 void PushAnswers::answer(Push& push) const {

@@ -26,10 +26,12 @@ class PushAnswers {
   explicit PushAnswers(const model::Model& model) : model_(model) {}
 
   /// @param compliance of each body, must outlive the answers, @param rows_in_use independent rows
+  /// @param closed rigid rows of force laws that hold, too
   /// @return false if the joint rows are dependent there
   bool condense(const std::vector<dynamics::BodyCompliance>& compliance,
                 const std::vector<dynamics::BodyMotion>& motions,
-                const std::vector<int>& rows_in_use, const model::RowMemory* memory, double t);
+                const std::vector<int>& rows_in_use, const model::RowMemory* memory, double t,
+                const std::vector<dynamics::SystemRow>& closed = {});
   /// Fills all but the row of a push.
   void answer(Push& push) const;
   /// What one push does along the row of another.
@@ -38,7 +40,7 @@ class PushAnswers {
  private:
   const model::Model& model_;
   const std::vector<dynamics::BodyCompliance>* compliance_ = nullptr;
-  std::optional<dynamics::MultiplierCondensation> joints_;  // empty without joint rows
+  std::optional<dynamics::MultiplierCondensation> joints_;  // empty without rows that hold
 };
 
 }  // namespace buckens::stepping

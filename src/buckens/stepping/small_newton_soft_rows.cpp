@@ -81,13 +81,13 @@ const loads::RigidRow* SmallNewton::closed_row(std::size_t soft) const {
 
 bool SmallNewton::move_rigid_rows(double t, const StepReport& report) {
   if (rigid_.empty()) return false;
-  bool have_moved = rigid_.move(forces_.rigid, cones_.rows());
-  if (!cones_.empty() && !cones_.hold(forces_.rigid, rigid_.stands())) {
-    const bool have_turned = decide_cones(t);
-    if (have_turned && !have_moved) rigid_.count_move();
-    have_moved = have_moved || have_turned;
+  // Friction that is out of its cone presses others off their stops that are pressed on in the end.
+  const bool are_held = cones_.empty() || cones_.hold(forces_.rigid, rigid_.stands());
+  if (!are_held && decide_cones(t)) {
+    rigid_.count_move();
+  } else if (!rigid_.move(forces_.rigid, cones_.rows())) {
+    return false;
   }
-  if (!have_moved) return false;
   if (rigid_.num_moves() > kMostMoves) {
     fail(t, report,
          "no combination of holding and releasing satisfies all rigid stops and rigid friction");

@@ -70,7 +70,8 @@ double share_of(int round) {
   return round < kWhole ? 1.0 : round < kThird ? 0.3 : 0.1;
 }
 
-/// Takes back a part of what forces of rigid rows have changed by. @param before all memories of laws
+/// Takes back a part of what forces of rigid rows have changed by. @param before all memories of
+/// laws
 void take_back(const model::Model& model, const linalg::Vector& before, double part,
                linalg::Vector& laws) {
   for (const model::Load& load : model.loads) {

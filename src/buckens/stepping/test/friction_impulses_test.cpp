@@ -3,8 +3,10 @@
 #include "buckens/stepping/friction_impulses.h"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 namespace buckens::stepping {
@@ -68,6 +70,86 @@ TEST(FrictionImpulses, SatisfyCoulombAndOneSidedRows) {
       }
     }
   }
+}
+
+/// A box that strikes a plane with its lowest corners.
+struct FallingBox {
+  Matrix D;
+  Vector b;
+  std::vector<ImpactSlip> slips;
+};
+
+FallingBox falling_box(std::mt19937& random, Eigen::Index corners, double mu) {
+  std::uniform_real_distribution<double> between(-1, 1);
+  Eigen::Vector3d half;
+  for (double& side : half) side = 0.1 + 0.08 * between(random);
+  const Eigen::Vector3d square = half.cwiseProduct(half);
+  const Eigen::Vector3d J = (square.sum() * Eigen::Vector3d::Ones() - square) / 3.0;
+  Eigen::Quaterniond q(1, 0, 0, 0);
+  if (corners == 1) q = {between(random), between(random), between(random), between(random)};
+  if (corners == 2) q = {1, 0.3 * between(random), 0, 0};
+  const Eigen::Matrix3d R = q.normalized().toRotationMatrix();
+  std::vector<Eigen::Vector3d> places;
+  for (int k = 0; k < 8; ++k) {
+    const Eigen::Vector3d sign((k & 1) ? 1 : -1, (k & 2) ? 1 : -1, (k & 4) ? 1 : -1);
+    places.push_back(R * half.cwiseProduct(sign));
+  }
+  std::sort(places.begin(), places.end(),
+            [](const auto& a, const auto& c) { return a.z() < c.z(); });
+  Matrix A(3 * corners, 6);
+  FallingBox out;
+  for (Eigen::Index k = 0; k < corners; ++k) {
+    const Eigen::Vector3d& x = places[static_cast<std::size_t>(k)];
+    const auto set = [&](Eigen::Index row, const Eigen::Vector3d& d) {
+      A.row(row) << d.transpose(), x.cross(d).transpose();
+    };
+    set(k, Eigen::Vector3d::UnitZ());
+    set(corners + 2 * k, Eigen::Vector3d::UnitX());
+    set(corners + 2 * k + 1, Eigen::Vector3d::UnitY());
+    out.slips.push_back({k, corners + 2 * k, 2, mu});
+  }
+  Matrix M = Matrix::Identity(6, 6);  // inverse
+  M.bottomRightCorner<3, 3>() = R * J.cwiseInverse().asDiagonal() * R.transpose();
+  Vector V(6);
+  V << 2 * between(random), 2 * between(random), -std::abs(between(random)), 5 * between(random),
+      5 * between(random), 5 * between(random);
+  out.D = A * M * A.transpose();
+  out.b = -A * V;
+  return out;
+}
+
+TEST(FrictionImpulses, OfBoxesOnOneToFourCornersAreFound) {
+  std::mt19937 random(3);
+  int of_coulomb = 0, all = 0;
+  for (const Eigen::Index corners : {1, 2, 4}) {
+    for (int trial = 0; trial < 60; ++trial) {
+      const double mu = 0.3 * (1 + trial % 5);
+      const FallingBox box = falling_box(random, corners, mu);
+      const Vector P = solve_impact(box.D, box.b, corners, box.slips);
+      const Vector w = box.D * P - box.b;
+      const double speed = box.b.cwiseAbs().maxCoeff();
+      double open = 0;  // of Coulomb's law
+      for (const ImpactSlip& slip : box.slips) {
+        const double press = P[slip.across];
+        const Vector rub = P.segment(slip.first, 2);
+        const Vector v = w.segment(slip.first, 2);
+        EXPECT_GE(press, 0);
+        EXPECT_GE(w[slip.across], -1e-8 * speed);
+        EXPECT_LE(rub.norm(), mu * press * (1 + 1e-9) + 1e-12);
+        open = std::max({open, std::min(std::abs(w[slip.across]) / speed, press),
+                         (rub * v.norm() + mu * press * v).norm() / speed});
+      }
+      // None of them takes energy from nowhere.
+      EXPECT_LE(P.dot(0.5 * box.D * P - box.b), 1e-9 * P.dot(box.D * P));
+      if (corners == 1) {
+        EXPECT_LE(open, 1e-8) << mu;
+      }
+      of_coulomb += open < 1e-4 ? 1 : 0;
+      ++all;
+    }
+  }
+  // The others were struck blow by blow.
+  EXPECT_GE(of_coulomb, 0.95 * all);
 }
 
 TEST(FrictionImpulses, AreSharedWhereRowsHoldTheSame) {
