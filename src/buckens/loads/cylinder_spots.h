@@ -13,7 +13,7 @@ constexpr bool touches_cylinder_by_volume(ContactShape::Kind first) {
 }
 
 /// Number of spots of a cylinder on one of these.
-inline constexpr std::size_t kCylinderSpots = 7;
+inline constexpr std::size_t kCylinderSpots = 8;
 
 /// Where a cylinder touches a box or a cylinder: spots that stand for springs spread over the
 /// volume that both have in common, with the energy 4 K/Ā ∫ p dV, p being the depth below the

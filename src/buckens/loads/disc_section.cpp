@@ -14,6 +14,9 @@ using Eigen::Vector2d;
 
 namespace {
 
+// Places on the circle that are this close, as a share of the radius, are one.
+constexpr double kOnCircle = 1e-9;
+
 // Below this, x − sin x is summed as a series, whose next term is 1e-17 of it.
 constexpr double kSmallArc = 0.3;
 
@@ -145,6 +148,9 @@ SectionSums sums_within_disc(const ConvexSection& polygon, double radius, double
     const Piece& next = pieces[k + 1 < count ? k + 1 : 0];
     if (k > 0) sum.add_triangle(base, one.from, one.to);
     if (!one.ends_outside) continue;
+    // A corner on the circle: between two pieces nothing is left of the arc, least of all all of
+    // it.
+    if (count > 1 && (next.from - one.to).norm() < kOnCircle * radius) continue;
     sum.add_triangle(base, one.to, next.from);
     sum.add_segment(one.to, next.from);
   }

@@ -5,6 +5,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "buckens/stepping/step_failure.h"
+
 namespace buckens::stepping {
 
 using linalg::Matrix;
@@ -99,6 +101,12 @@ double root(const Rate& rate, double at_zero, double first_guess) {
     rate_low = rate_high;
     high *= 2.0;
     rate_high = rate(high);
+  }
+  if (!(rate_high >= 0.0)) {
+    throw StepFailure(
+        "friction takes all that would part the bodies, it jams; give the contact a `stiffness`, "
+        "or "
+        "less `static`");
   }
   bool was_high = false;
   for (int k = 0; k < kMostTries && high - low > kLastDigits * high; ++k) {

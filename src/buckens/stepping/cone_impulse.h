@@ -11,9 +11,10 @@ namespace buckens::stepping {
 ///     w₀ ≥ 0,  P₀ ≥ 0,  P₀ w₀ = 0;   |P_t| ≤ μ P₀ and w_t = 0, or P_t = −μ P₀ w_t/|w_t| (I3)
 ///
 /// It exists for any v where B is positive definite: P_t is a function of P₀, so w₀ is, too, and it
-/// grows without bound. Cost: some ten eigenvalue problems' worth of a 2×2 matrix.
+/// grows without bound. Cost: about that of ten eigenvalue problems of 2×2 matrices.
 /// @param B answers of the rates to the impulses, @param v rates without them
 /// @param coefficient μ, @param none answers up to this are rounding: nothing moves that way
+/// @throws StepFailure where B is singular and friction jams
 linalg::Vector cone_impulse(const linalg::Matrix& B, const linalg::Vector& v, double coefficient,
                             double none);
 

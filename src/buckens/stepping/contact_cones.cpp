@@ -2,7 +2,6 @@
 #include "buckens/stepping/contact_cones.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace buckens::stepping {
 
@@ -12,7 +11,7 @@ using linalg::Vector;
 namespace {
 
 // Angle between friction and slip, and share of the cone, that rounding may make.
-constexpr double kAligned = 1e-9;
+constexpr double kAligned = 1e-7;
 constexpr double kInside = 1e-10;
 // Rates by this share of what forces do to them are rounding.
 constexpr double kNoRate = 1e-9;
@@ -61,9 +60,10 @@ bool ContactCones::holds(const Place& place, const Now& now,
   }
   if (!now.is_pressed || now.sticks) return true;
   const double speed = now.slip.norm();
-  if (!(speed > place.law->data().at_rest)) return true;
+  const double at_rest = place.law->data().at_rest;
+  if (!(speed > at_rest)) return true;
   return (now.force * speed + now.slip * now.force.norm()).norm() <=
-         kAligned * speed * now.force.norm();
+         (kAligned * speed + 4.0 * at_rest) * now.force.norm();
 }
 
 bool ContactCones::hold(const std::vector<loads::RigidRow>& rows,
@@ -105,7 +105,7 @@ bool ContactCones::decide(const std::vector<loads::RigidRow>& rows, const dynami
                           const std::vector<dynamics::BodyCompliance>& compliance,
                           const std::vector<dynamics::BodyMotion>& motions,
                           const std::vector<int>& rows_in_use, const model::RowMemory* memory,
-                          double t, const Scheme& scheme, RigidRows& rigid) {
+                          double t, double per_force, double per_change, RigidRows& rigid) {
   // Other rigid rows, as stops and locks, go on as they stand.
   std::vector<dynamics::SystemRow> others;
   for (std::size_t k = 0; k < soft.rows.size(); ++k) {
@@ -134,19 +134,19 @@ bool ContactCones::decide(const std::vector<loads::RigidRow>& rows, const dynami
   // Gyroscopic terms make it a little unsymmetric, and sweeps over places that hold the same drift.
   D = 0.5 * (D + D.transpose()).eval();
   // Rates in changes of the step's end.
-  const Vector P = scheme.force * Eigen::Map<const Vector>(now.force.data(), n);
-  const Vector b = D * P - Eigen::Map<const Vector>(now.rate.data(), n) / scheme.end_rate;
+  const Vector P = per_force * Eigen::Map<const Vector>(now.force.data(), n);
+  const Vector b = D * P - Eigen::Map<const Vector>(now.rate.data(), n) / per_change;
   const Vector next = solve_impact(D, b, std::ssize(now.places), now.slips);
-  const Vector rates = scheme.end_rate * (D * next - b);
-  const double none = kNoRate * scheme.end_rate * (D.cwiseAbs() * next.cwiseAbs()).maxCoeff();
+  const Vector rates = per_change * (D * next - b);
+  const double none = kNoRate * per_change * (D.cwiseAbs() * next.cwiseAbs()).maxCoeff();
   for (std::size_t k = 0; k < now.places.size(); ++k) {
     const ImpactSlip& own = now.slips[k];
     Vector force(1 + own.count);
     force << next[own.across], next.segment(own.first, own.count);
-    // What others hold as well need not press, and stays.
+    // A place that others hold as well needs no force of its own; it stays closed.
     if (!(force[0] > 0.0) && rates[own.across] <= none) continue;
     const double speed = rates.segment(own.first, own.count).norm();
-    has_moved = put(*now.places[k], force / scheme.force, speed, rigid) || has_moved;
+    has_moved = put(*now.places[k], force / per_force, speed, rigid) || has_moved;
   }
   return has_moved;
 }

@@ -8,7 +8,6 @@
 #include "buckens/stepping/friction_impulses.h"
 #include "buckens/stepping/push_answers.h"
 #include "buckens/stepping/rigid_rows.h"
-#include "buckens/stepping/scheme.h"
 
 namespace buckens::stepping {
 
@@ -16,8 +15,8 @@ namespace buckens::stepping {
 /// and which way, is decided for all of them together.
 ///
 /// From the forces and rates that the iteration has come to, forces are found that satisfy (I1) and
-/// (I2) with what the rates change by them; rows then stand accordingly. Alone, each would know but
-/// its own force. Theory: docs/theory/25-contact.md §4.
+/// (I2) with what the rates change by them; rows then stand accordingly. On its own, each
+/// would know only its own force. Theory: docs/theory/25-contact.md §4.
 class ContactCones {
  public:
   explicit ContactCones(const model::Model& model);
@@ -29,11 +28,15 @@ class ContactCones {
   bool hold(const std::vector<loads::RigidRow>& rows,
             const std::vector<loads::RowStand>& stands) const;
   /// Decides anew. @param rows and @param soft at the same instant of the iteration
-  /// @param compliance of the bodies in the step [m/N] @return whether any row stands otherwise
+  /// @param compliance of the bodies [m/N] @param per_force,per_change of the equations:
+  /// `compliance` times per_force is the displacement by a force, times per_change the change of
+  /// the rate
+  /// @return whether any row stands otherwise
   bool decide(const std::vector<loads::RigidRow>& rows, const dynamics::SoftRows& soft,
               const std::vector<dynamics::BodyCompliance>& compliance,
               const std::vector<dynamics::BodyMotion>& motions, const std::vector<int>& rows_in_use,
-              const model::RowMemory* memory, double t, const Scheme& scheme, RigidRows& rigid);
+              const model::RowMemory* memory, double t, double per_force, double per_change,
+              RigidRows& rigid);
 
  private:
   /// One place: its row across and those along, which follow it.

@@ -17,18 +17,17 @@ using linalg::Vector;
 namespace {
 
 // Changes of rates by this share of what impulses do to them, and those that may be rounding where
-// they do not fall any more. How places share an impulse is known to less, which no rate feels.
+// they do not fall any more. How places share an impulse is less certain, but no rate depends on
+// it.
 constexpr double kSameRates = 1e-14;
 constexpr double kRoundingOfRates = 1e-10;
 // Answers by this share of the largest answer of all.
 constexpr double kNoAnswerOfPlace = 1e-12;
-// Impulses across and along in turn, with sweeps over the latter; all places held; place by place;
-// the same by half of each change, where that goes to and fro; and blows one after the other.
-constexpr int kMostAgreements = 50;
-constexpr int kMostSlipSweeps = 1000;
-constexpr int kMostSweeps = 500;
-constexpr int kMostHalfSweeps = 2000;
-constexpr int kMostBlows = 10000;
+constexpr int kMostAgreements = 50;    // rounds of across and along
+constexpr int kMostSlipSweeps = 1000;  // over those along, per round
+constexpr int kMostSweeps = 500;       // place by place
+constexpr int kMostHalfSweeps = 2000;  // the same by half of each change
+constexpr int kMostBlows = 10000;      // in turn
 
 /// The places that are struck, each with its rows: across, then along.
 class Places {
@@ -58,7 +57,11 @@ class Places {
     for (int round = 0; round < kMostAgreements; ++round) {
       const bool has_settled = settle_slips(P);
       const Vector before = P(across);
-      P(across) = solve_complementarity(pressing, b_(across) - D_(across, along) * P(along));
+      try {
+        P(across) = solve_complementarity(pressing, b_(across) - D_(across, along) * P(along));
+      } catch (const StepFailure&) {
+        return false;
+      }
       const double change =
           (D_(Eigen::all, across) * (P(across) - before)).cwiseAbs().maxCoeff() / size_of_rates(P);
       const bool is_rounding = change <= kRoundingOfRates &&
@@ -150,10 +153,6 @@ class Places {
   double none_;
   std::vector<Place> places_;
 };
-
-}  // namespace
-
-namespace {
 
 Vector solve_together(const Matrix& D, const Vector& b, Eigen::Index num_across,
                       const std::vector<ImpactSlip>& slips) {

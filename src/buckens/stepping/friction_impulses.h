@@ -23,7 +23,9 @@ struct ImpactSlip {
 ///
 ///     |P_t| = μ P_n,   P_t = −|P_t| v/|v|,   v = D P − b (I2)
 ///
-/// Each set is solved with the impulses of the other one until both agree.
+/// Each set is solved with the impulses of the other one until both agree. Where that has no end,
+/// place by place (stepping/cone_impulse.h); then blow by blow, which keeps the cones and parts the
+/// bodies, but a place may have rubbed before it stuck.
 /// @param D of all rows, positive semidefinite, @param b of slips: minus the speed of slip before
 /// @param num_across number of one-sided rows
 /// @throws StepFailure if they do not come to an agreement: friction that jams

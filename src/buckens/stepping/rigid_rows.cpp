@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/stepping/rigid_rows.h"
 
+#include <algorithm>
+
+#include "buckens/loads/contact_friction.h"
+
 namespace buckens::stepping {
 
 namespace {
@@ -10,7 +14,9 @@ constexpr double kTheSame = 1e-11;
 
 RigidRows::RigidRows(const model::Model& model) {
   for (const model::Load& load : model.loads) {
-    if (load.rigid_row >= 0) first_states_.push_back(load.first_state);
+    if (load.rigid_row < 0) continue;
+    first_states_.push_back(load.first_state);
+    loads_.push_back(static_cast<std::size_t>(&load - model.loads.data()));
   }
   stands_.resize(first_states_.size());
   regimes_at_start_.resize(first_states_.size());
@@ -20,15 +26,18 @@ void RigidRows::start(const model::RowMemory& memory) {
   for (std::size_t k = 0; k < stands_.size(); ++k) {
     stands_[k] = {static_cast<int>(memory.laws[first_states_[k]]),
                   memory.laws[first_states_[k] + 1]};
+    // What an event has switched off holds nothing.
+    if (memory.is_off(loads_[k])) stands_[k] = {};
     regimes_at_start_[k] = stands_[k].regime;
   }
   num_moves_ = 0;
 }
 
-bool RigidRows::move(const std::vector<loads::RigidRow>& rows, const std::vector<char>& others) {
+bool RigidRows::move(const std::vector<loads::RigidRow>& rows,
+                     const std::vector<char>& decided_elsewhere) {
   bool has_moved = false;
   for (std::size_t k = 0; k < stands_.size(); ++k) {
-    if (!others.empty() && others[k] != 0) continue;
+    if (!decided_elsewhere.empty() && decided_elsewhere[k] != 0) continue;
     const loads::RowStand next = rows[k].next;
     const bool is_other = next.regime != stands_[k].regime;
     has_moved = has_moved || is_other;
@@ -47,7 +56,11 @@ bool RigidRows::put(int row, const loads::RowStand& stand) {
 
 bool RigidRows::have_changed() const {
   for (std::size_t k = 0; k < stands_.size(); ++k) {
-    if (stands_[k].regime != regimes_at_start_[k]) return true;
+    // A direction of sliding that the step has held is no other regime.
+    if (std::min(stands_[k].regime, loads::ContactFriction::kHeldDirection - 1) !=
+        regimes_at_start_[k]) {
+      return true;
+    }
   }
   return false;
 }

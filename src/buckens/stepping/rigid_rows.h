@@ -22,9 +22,11 @@ class RigidRows {
   /// One per Load::rigid_row, in memory that stays in place.
   const std::vector<loads::RowStand>& stands() const { return stands_; }
   void add_force(int row, double change) { stands_[static_cast<std::size_t>(row)].force += change; }
-  /// Moves rows to the stands that follow from their sets. @param others rows that are not moved,
-  /// where it is not empty @return whether a regime changed
-  bool move(const std::vector<loads::RigidRow>& rows, const std::vector<char>& others = {});
+  /// Moves rows to the stands that follow from their sets.
+  /// @param decided_elsewhere per rigid row, those that stay as they are; empty: none
+  /// @return whether a regime changed
+  bool move(const std::vector<loads::RigidRow>& rows,
+            const std::vector<char>& decided_elsewhere = {});
   /// Moves one row. @return whether its regime changed
   bool put(int row, const loads::RowStand& stand);
   /// Counts a move of rows that were put.
@@ -35,7 +37,8 @@ class RigidRows {
   bool have_changed() const;
 
  private:
-  std::vector<int> first_states_;  // in RowMemory::laws, per rigid row
+  std::vector<int> first_states_;   // in RowMemory::laws, per rigid row
+  std::vector<std::size_t> loads_;  // index into Model::loads, per rigid row
   std::vector<loads::RowStand> stands_;
   std::vector<int> regimes_at_start_;
   int num_moves_ = 0;

@@ -423,7 +423,7 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
     const bool is_settled =
         are_formed && ending_.is_settled(change, before, condensation_->pivot_ratio());
     if (is_settled || is_restless(since_moved)) {
-      const bool has_moved = is_settled ? move_rigid_rows(t, report) : decide_cones(t);
+      const bool has_moved = is_settled ? move_rigid_rows(t, report) : decide_cones(t, report);
       if (is_settled && !has_moved) break;
       if (has_moved) {
         since_moved = 0;

@@ -113,7 +113,9 @@ class SmallNewton {
   /// Moves rigid rows to where their sets put them, once all else is settled. @return whether any
   bool move_rigid_rows(double t, const StepReport& report);
   /// Decides anew how rigid contacts with friction stand. @return whether any stands otherwise
-  bool decide_cones(double t);
+  bool decide_cones(double t, const StepReport& report);
+  /// @throws StepFailure if rigid rows have moved too often in this step
+  void limit_moves(double t, const StepReport& report) const;
   /// Whether the iteration goes on for so long that friction may turn to and fro.
   bool is_restless(int iterations) const {
     constexpr int kRestless = 10;

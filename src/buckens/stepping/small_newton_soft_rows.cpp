@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Soft rows of force laws in the iteration of a step, and what follows when laws change regimes.
-#include <algorithm>
+#include <utility>
 
 #include "buckens/stepping/small_newton.h"
+#include "buckens/stepping/step_failure.h"
 
 namespace buckens::stepping {
 
@@ -83,21 +84,30 @@ bool SmallNewton::move_rigid_rows(double t, const StepReport& report) {
   if (rigid_.empty()) return false;
   // Friction that is out of its cone presses others off their stops that are pressed on in the end.
   const bool are_held = cones_.empty() || cones_.hold(forces_.rigid, rigid_.stands());
-  if (!are_held && decide_cones(t)) {
-    rigid_.count_move();
-  } else if (!rigid_.move(forces_.rigid, cones_.rows())) {
-    return false;
-  }
-  if (rigid_.num_moves() > kMostMoves) {
-    fail(t, report,
-         "no combination of holding and releasing satisfies all rigid stops and rigid friction");
-  }
+  if (!are_held && decide_cones(t, report)) return true;
+  if (!rigid_.move(forces_.rigid, cones_.rows())) return false;
+  limit_moves(t, report);
   return true;
 }
 
-bool SmallNewton::decide_cones(double t) {
-  return cones_.decide(forces_.rigid, soft_, compliance_, end_, rows_in_use_, around_.memory,
-                       t + scheme_.h, scheme_, rigid_);
+bool SmallNewton::decide_cones(double t, const StepReport& report) {
+  try {
+    if (!cones_.decide(forces_.rigid, soft_, compliance_, end_, rows_in_use_, around_.memory,
+                       t + scheme_.h, scheme_.force, scheme_.end_rate, rigid_)) {
+      return false;
+    }
+  } catch (const StepFailure&) {
+    fail(t, report, "friction of rigid contacts jams, they need a `stiffness` or less `static`");
+  }
+  rigid_.count_move();
+  limit_moves(t, report);
+  return true;
+}
+
+void SmallNewton::limit_moves(double t, const StepReport& report) const {
+  if (rigid_.num_moves() <= kMostMoves) return;
+  fail(t, report,
+       "no combination of holding and releasing satisfies all rigid stops and rigid friction");
 }
 
 bool SmallNewton::form_tangent(std::vector<BodyStep>& bodies, bool rigid_rows_moved) {

@@ -11,6 +11,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/forces.h"
 #include "buckens/loads/contact_friction.h"
+#include "buckens/stepping/contact_cones.h"
 
 namespace buckens::analysis {
 
@@ -21,17 +22,76 @@ constexpr int kMostRowRounds = 450;
 // they do not fall any more.
 constexpr double kSameMotion = 1e-13;
 constexpr double kRoundingOfMotion = 1e-9;
+// What friction would stop within this time sticks [s].
+constexpr double kAtOnce = 1e-6;
+
+/// The end of the list if there is none.
+auto find_rough_contact(const model::Model& model) {
+  return std::find_if(model.loads.begin(), model.loads.end(), [](const model::Load& load) {
+    return dynamic_cast<const loads::ContactFriction*>(load.element.get()) != nullptr;
+  });
+}
+
+/// Rigid contacts with friction, whose stands are decided together.
+class RoughContacts {
+ public:
+  RoughContacts(const model::Model& model, const std::vector<int>& rows_in_use)
+      : model_(model), rows_in_use_(rows_in_use), cones_(model), rigid_(model) {
+    for (const body::Body& body : model.bodies) {
+      compliance_.push_back({dynamics::frame_mobility(body, body.J0), nullptr});
+    }
+  }
+
+  bool owns(int rigid_row) const { return cones_.rows()[static_cast<std::size_t>(rigid_row)] != 0; }
+
+  /// @return whether any stands otherwise now
+  bool decide(const dynamics::Forces& forces, model::State& state) {
+    rigid_.start(state.memory);
+    if (cones_.hold(forces.rigid, rigid_.stands())) return false;
+    const auto motions = dynamics::motions_of(model_, state);
+    dynamics::evaluate_soft_rows(model_, motions, state.t, dynamics::circumstances_of(state),
+                                 soft_);
+    if (!cones_.decide(forces.rigid, soft_, compliance_, motions, rows_in_use_, &state.memory,
+                       state.t, 1.0, kAtOnce, rigid_)) {
+      return false;
+    }
+    bool has_moved = false;
+    for (const model::Load& load : model_.loads) {
+      if (load.rigid_row < 0 || !owns(load.rigid_row)) continue;
+      const loads::RowStand& stand = rigid_.stands()[static_cast<std::size_t>(load.rigid_row)];
+      const int regime = std::min(stand.regime, loads::ContactFriction::kHeldDirection - 1);
+      double* const memory = state.memory.laws.data() + load.first_state;
+      has_moved = has_moved || static_cast<int>(memory[0]) != regime;
+      memory[0] = regime;
+      memory[1] = stand.force;
+    }
+    return has_moved;
+  }
+
+ private:
+  const model::Model& model_;
+  const std::vector<int>& rows_in_use_;
+  stepping::ContactCones cones_;
+  stepping::RigidRows rigid_;
+  std::vector<dynamics::BodyCompliance> compliance_;
+  dynamics::SoftRows soft_;
+};
 
 /// Moves rows to the stands that follow. @return names of the loads that moved
 /// @param released per rigid row: what has once let go here is not closed again, since at a rate of
 ///        nearly zero its sign says nothing
-std::string move_rows(const model::Model& model, std::vector<char>& released, model::State& state) {
+/// @param rough where they are decided together, else null
+std::string move_rows(const model::Model& model, RoughContacts* rough, std::vector<char>& released,
+                      model::State& state) {
   dynamics::Forces forces;
   dynamics::evaluate_forces(model, dynamics::motions_of(model, state), state.t,
                             dynamics::circumstances_of(state), forces);
   std::string names;
+  if (rough != nullptr && rough->decide(forces, state)) {
+    names = fmt::format("\"{}\"", find_rough_contact(model)->name);
+  }
   for (const model::Load& load : model.loads) {
-    if (load.rigid_row < 0) continue;
+    if (load.rigid_row < 0 || (rough != nullptr && rough->owns(load.rigid_row))) continue;
     const loads::RowStand& next = forces.rigid[static_cast<std::size_t>(load.rigid_row)].next;
     double* const stand = state.memory.laws.data() + load.first_state;
     if (static_cast<int>(stand[0]) == next.regime) continue;
@@ -43,13 +103,6 @@ std::string move_rows(const model::Model& model, std::vector<char>& released, mo
     names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", load.name);
   }
   return names;
-}
-
-/// The end of the list if there is none.
-auto find_rough_contact(const model::Model& model) {
-  return std::find_if(model.loads.begin(), model.loads.end(), [](const model::Load& load) {
-    return dynamic_cast<const loads::ContactFriction*>(load.element.get()) != nullptr;
-  });
 }
 
 /// Accelerations of all bodies, rotations times the model's length [m/s²].
@@ -105,24 +158,41 @@ class SettledMotion {
   double change_before_ = HUGE_VAL;
 };
 
+/// @param rough where rigid contacts with friction are decided together, else null
+/// @param moved names of the loads that moved in the last round @return whether all have settled
+bool settle_in_rounds(const model::Model& model, const dynamics::MassMetric& metric,
+                      const std::vector<int>& rows_in_use, RoughContacts* rough,
+                      model::State& state, std::string& moved) {
+  std::vector<char> released(static_cast<std::size_t>(model.num_rigid_rows()));
+  // Friction in contacts is that of the forces of the round before.
+  const bool is_rough = find_rough_contact(model) != model.loads.end();
+  SettledMotion motion(model);
+  for (int round = 0; round < kMostRowRounds; ++round) {
+    const linalg::Vector before = state.memory.laws;
+    settle_accelerations(model, metric, rows_in_use, state);
+    if (model.num_rigid_rows() == 0) return true;
+    moved = move_rows(model, rough, released, state);
+    const double share = share_of(round);
+    if (moved.empty() && (!is_rough || motion.look(state, share))) return true;
+    if (moved.empty() && share < 1.0) take_back(model, before, 1.0 - share, state.memory.laws);
+  }
+  return false;
+}
+
 }  // namespace
 
 void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& metric,
                        const std::vector<int>& rows_in_use, model::State& state) {
   std::string moved;
-  std::vector<char> released(static_cast<std::size_t>(model.num_rigid_rows()));
-  // Friction in contacts is that of the forces of the round before.
   const auto rough = find_rough_contact(model);
-  const bool is_rough = rough != model.loads.end();
-  SettledMotion motion(model);
-  for (int round = 0; round < kMostRowRounds; ++round) {
-    const linalg::Vector before = state.memory.laws;
-    settle_accelerations(model, metric, rows_in_use, state);
-    if (model.num_rigid_rows() == 0) return;
-    moved = move_rows(model, released, state);
-    const double share = share_of(round);
-    if (moved.empty() && (!is_rough || motion.look(state, share))) return;
-    if (moved.empty() && share < 1.0) take_back(model, before, 1.0 - share, state.memory.laws);
+  if (rough == model.loads.end()) {
+    if (settle_in_rounds(model, metric, rows_in_use, nullptr, state, moved)) return;
+  } else {
+    const model::State start = state;
+    if (settle_in_rounds(model, metric, rows_in_use, nullptr, state, moved)) return;
+    state = start;
+    RoughContacts contacts(model, rows_in_use);
+    if (settle_in_rounds(model, metric, rows_in_use, &contacts, state, moved)) return;
   }
   if (moved.empty()) {
     throw NumericalError(fmt::format(

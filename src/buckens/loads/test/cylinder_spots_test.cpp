@@ -73,6 +73,41 @@ DrumWrench slope_of_energy(const ContactShape& first, const ContactShape& second
   return out;
 }
 
+TEST(CylinderSpots, ACrateOnARoundTableStaysInItsMiddle) {
+  // Four wedges at the sides of the crate beside the face: none of them may be left out.
+  ContactShape crate = table();
+  crate.half = {0.2, 0.15, 0.1};
+  const ContactShape on = drum(0.5, 0.3);
+  const double overlap = 1e-3;
+  const Vector3d r(0.0, 0.0, -(0.1 + 0.3) + overlap);
+  DrumSpots spots;
+  find_cylinder_spots(crate, on, r, Matrix3d::Identity(), spots);
+  const DrumWrench F = drum_wrench(spots, r);
+  EXPECT_LT(F[2], 0.0);
+  EXPECT_LE(F.head<2>().norm(), 1e-12 * -F[2]);
+  EXPECT_NEAR((F - slope_of_energy(crate, on, r, Matrix3d::Identity(), 1e-6)).norm(), 0,
+              1e-6 * F.norm());
+}
+
+TEST(CylinderSpots, CornersMayLieOnTheRim) {
+  // Sides of 3 and 4, and a radius of 5, but for rounding.
+  ContactShape crate = table();
+  crate.half = {0.3, 0.4, 0.1};
+  for (const double turn : {0.0, 0.3, 1.0, 2.2}) {
+    const ContactShape on = drum(0.5, 0.3);
+    const double overlap = 1e-3;
+    const Vector3d r(0.0, 0.0, -(0.1 + 0.3) + overlap);
+    DrumSpots spots;
+    find_cylinder_spots(crate, on, r, drum_turned({0, 0, turn}), spots);
+    const double face = 4.0 / 3.0 * (0.3 * 0.4 + 0.4 * 0.1 + 0.1 * 0.3);
+    const double area = 4.0 * 0.3 * 0.4;
+    // Without the wedges nearer to the sides, which push there; they meet in the corners.
+    const double wedges = 0.5 * overlap * overlap * 4.0 * (0.3 + 0.4);
+    const double volume = area * overlap - wedges;
+    EXPECT_NEAR(drum_wrench(spots, r)[2], -4.0 / face * volume, 1e-5 * overlap) << turn;
+  }
+}
+
 TEST(CylinderSpots, AnEndThatLiesOnAFaceHasFourSprings) {
   DrumSpots spots;
   const ContactShape on = drum();

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
+
+#include "buckens/stepping/step_failure.h"
 
 namespace buckens::stepping {
 namespace {
@@ -150,6 +153,35 @@ TEST(FrictionImpulses, OfBoxesOnOneToFourCornersAreFound) {
   }
   // The others were struck blow by blow.
   EXPECT_GE(of_coulomb, 0.95 * all);
+}
+
+TEST(FrictionImpulses, NameFrictionThatJams) {
+  // A guide lets the place move along one line only, within its cone: whatever presses is rubbed
+  // off.
+  const Eigen::Vector2d line = Eigen::Vector2d(0.3, 1.0).normalized();
+  const Matrix D = line * line.transpose();
+  try {
+    solve_impact(D, Eigen::Vector2d(0.1, -1.0), 1, {{0, 1, 1, 1.0}});
+    FAIL();
+  } catch (const StepFailure& failure) {
+    EXPECT_NE(std::string(failure.what()).find("jams"), std::string::npos);
+  }
+}
+
+TEST(FrictionImpulses, OfBodiesApartAreThoseOfEach) {
+  std::mt19937 random(5);
+  const FallingBox one = falling_box(random, 2, 0.6), other = falling_box(random, 1, 0.9);
+  // Rows across of both, then along of both.
+  const std::vector<Eigen::Index> first = {0, 1, 3, 4, 5, 6}, second = {2, 7, 8};
+  Matrix D = Matrix::Zero(9, 9);
+  Vector b(9);
+  D(first, first) = one.D;
+  D(second, second) = other.D;
+  b(first) = one.b;
+  b(second) = other.b;
+  const Vector P = solve_impact(D, b, 3, {{0, 3, 2, 0.6}, {1, 5, 2, 0.6}, {2, 7, 2, 0.9}});
+  EXPECT_EQ((P(first) - solve_impact(one.D, one.b, 2, one.slips)).norm(), 0);
+  EXPECT_EQ((P(second) - solve_impact(other.D, other.b, 1, other.slips)).norm(), 0);
 }
 
 TEST(FrictionImpulses, AreSharedWhereRowsHoldTheSame) {
