@@ -100,11 +100,10 @@ TEST(CylinderSpots, CornersMayLieOnTheRim) {
     DrumSpots spots;
     find_cylinder_spots(crate, on, r, drum_turned({0, 0, turn}), spots);
     const double face = 4.0 / 3.0 * (0.3 * 0.4 + 0.4 * 0.1 + 0.1 * 0.3);
-    const double area = 4.0 * 0.3 * 0.4;
-    // Without the wedges nearer to the sides, which push there; they meet in the corners.
-    const double wedges = 0.5 * overlap * overlap * 4.0 * (0.3 + 0.4);
-    const double volume = area * overlap - wedges;
-    EXPECT_NEAR(drum_wrench(spots, r)[2], -4.0 / face * volume, 1e-5 * overlap) << turn;
+    // A frustum below the face: nearer to the sides, the depth counts from there.
+    const double volume =
+        0.6 * 0.8 * overlap - (0.6 + 0.8) * std::pow(overlap, 2) + 4.0 / 3.0 * std::pow(overlap, 3);
+    EXPECT_NEAR(drum_wrench(spots, r)[2], -4.0 / face * volume, 1e-13) << turn;
   }
 }
 
