@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 
+#include "buckens/loads/shape_distance.h"
 #include "buckens/loads/symmetric_root.h"
+#include "buckens/spatial/box_separation.h"
 
 namespace buckens::loads {
 
@@ -13,14 +15,10 @@ using Eigen::Matrix2d;
 using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using spatial::BoxSeparation;
 
 namespace {
 
-// A face of the second box, or a pair of edges, has to be better by this share of the smaller box:
-// rounding must not choose between faces that lie on each other.
-constexpr double kClearlyBetter = 1e-3;
-// Square of the sine between edges that count as parallel.
-constexpr double kParallelEdges = 1e-6;
 // A quadrilateral that is cut by four sides and one plane.
 constexpr std::size_t kMostCorners = 9;
 
@@ -30,18 +28,6 @@ struct Placed {
   Matrix3d axes;
   Vector3d half;
   int flat;
-
-  double reach(const Vector3d& direction) const {
-    return half.dot((axes.transpose() * direction).cwiseAbs());
-  }
-};
-
-/// A direction in which the boxes are apart, or overlap least.
-struct Separation {
-  double gap = -HUGE_VAL;
-  Vector3d normal = Vector3d::UnitZ();  // from the first to the second
-  int axis = -1;                        // of a face
-  int edge = -1;                        // of the second, with `axis` of the first
 };
 
 /// Corners in the plane of the reference face with the overlap there.
@@ -74,39 +60,6 @@ struct Polygon {
   }
 };
 
-Separation along_faces(const Placed& owner, const Vector3d& to_other, const Placed& other,
-                       double sign) {
-  Separation out;
-  for (int k = 0; k < 3; ++k) {
-    if (k == owner.flat) continue;
-    const Vector3d direction = owner.axes.col(k);
-    const double along = direction.dot(to_other);
-    const double gap = std::abs(along) - owner.half[k] - other.reach(direction);
-    if (gap <= out.gap) continue;
-    out.gap = gap;
-    out.axis = k;
-    out.normal = (along < 0.0 ? -sign : sign) * direction;
-  }
-  return out;
-}
-
-Separation along_edges(const Placed& first, const Placed& second) {
-  Separation out;
-  if (first.flat >= 0) return out;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      Vector3d direction = first.axes.col(i).cross(second.axes.col(j));
-      if (direction.squaredNorm() < kParallelEdges) continue;
-      direction.normalize();
-      if (direction.dot(second.middle) < 0.0) direction = -direction;
-      const double gap =
-          direction.dot(second.middle) - first.reach(direction) - second.reach(direction);
-      if (gap > out.gap) out = {gap, direction, i, j};
-    }
-  }
-  return out;
-}
-
 /// Middle of the edge along an axis that lies furthest out.
 Vector3d outer_edge(const Placed& box, int axis, const Vector3d& outwards) {
   Vector3d out = box.middle;
@@ -117,7 +70,7 @@ Vector3d outer_edge(const Placed& box, int axis, const Vector3d& outwards) {
   return out;
 }
 
-void set_edge_spot(const Placed& first, const Placed& second, const Separation& best,
+void set_edge_spot(const Placed& first, const Placed& second, const BoxSeparation& best,
                    std::span<ContactSpot, 4> spots) {
   const Vector3d p = outer_edge(first, best.axis, best.normal);
   const Vector3d q = outer_edge(second, best.edge, -best.normal);
@@ -212,14 +165,8 @@ double mean_face(const Placed& box) {
   return sum / (box.flat >= 0 ? 2.0 : 3.0);
 }
 
-double least_half(const Placed& box) {
-  double out = HUGE_VAL;
-  for (int k = 0; k < 3; ++k) out = k == box.flat ? out : std::min(out, box.half[k]);
-  return out;
-}
-
 /// @param sign 1: the reference is the first box
-void set_face_spots(const Placed& reference, const Placed& incident, const Separation& best,
+void set_face_spots(const Placed& reference, const Placed& incident, const BoxSeparation& best,
                     double sign, std::span<ContactSpot, 4> spots) {
   const int axis = best.axis;
   const Vector3d normal = sign * best.normal;  // out of the reference
@@ -260,17 +207,15 @@ void find_box_spots(const ContactShape& first, const ContactShape& second, const
   // Sections of planar models: any extent across the plane, the same for both.
   if (a.flat >= 0) a.half[a.flat] = 1.0;
   if (b.flat >= 0) b.half[b.flat] = 1.0;
-  const double enough = kClearlyBetter * std::min(least_half(a), least_half(b));
-  const Separation by_first = along_faces(a, r, b, 1.0);
-  const Separation by_second = along_faces(b, -r, a, -1.0);
-  const Separation by_edges = along_edges(a, b);
-  const bool is_second = by_second.gap > by_first.gap + enough;
-  const Separation& by_face = is_second ? by_second : by_first;
-  if (by_edges.gap > by_face.gap + enough) return set_edge_spot(a, b, by_edges, spots);
-  if (is_second) {
-    set_face_spots(b, a, by_face, -1.0, spots);
-  } else {
-    set_face_spots(a, b, by_face, 1.0, spots);
+  const BoxSeparation best =
+      BoxSeparation::of(touch_surface(first), a.axes, touch_surface(second), b.axes, r);
+  switch (best.feature) {
+    case BoxSeparation::Feature::edges:
+      return set_edge_spot(a, b, best, spots);
+    case BoxSeparation::Feature::second_face:
+      return set_face_spots(b, a, best, -1.0, spots);
+    case BoxSeparation::Feature::first_face:
+      return set_face_spots(a, b, best, 1.0, spots);
   }
 }
 

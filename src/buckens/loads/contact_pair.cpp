@@ -2,7 +2,6 @@
 #include "buckens/loads/contact_pair.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "buckens/loads/box_manifold.h"
 #include "buckens/loads/contact_mesh.h"

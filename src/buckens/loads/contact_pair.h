@@ -49,7 +49,7 @@ class ContactPair {
   static constexpr int kMostSpots = 8;
   using Spots = std::array<ContactSpot, kMostSpots>;
 
-  /// All that can touch: a surface, and what is made of spheres against it.
+  /// All pairs that can touch, first and second.
   using Kinds = std::array<ContactShape::Kind, 2>;
   static std::span<const Kinds> all();
   /// Whether these are among them, in this order.

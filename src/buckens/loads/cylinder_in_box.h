@@ -7,12 +7,6 @@
 
 namespace buckens::loads {
 
-/// A cylinder with flat ends in some axes.
-struct PlacedCylinder {
-  Eigen::Vector3d middle, axis;
-  double radius, half_length;
-};
-
 /// Of each face of a box, twice the number of its axis, and one more on the negative side.
 using BoxCells = std::array<OverlapCell, 6>;
 

@@ -3,7 +3,6 @@
 
 #include <array>
 
-#include "buckens/loads/cylinder_in_box.h"
 #include "buckens/loads/overlap_cell.h"
 
 namespace buckens::loads {

@@ -5,6 +5,12 @@
 
 namespace buckens::loads {
 
+/// A cylinder with flat ends, in axes of the first of two solids.
+struct PlacedCylinder {
+  Eigen::Vector3d middle, axis;
+  double radius, half_length;
+};
+
 /// A part of what two solids have in common: what is nearest to one face of the first.
 struct OverlapCell {
   double volume = 0;                                 ///< [m³]

@@ -9,27 +9,27 @@ namespace buckens::spatial {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Around a point or an axis.
-/// @param out from there to the point, @param across projector onto the directions that `out` has
-/// @param sign −1: seen from inside
-TouchSurface::View TouchSurface::from_centre(const Vector3d& out, const Matrix3d& across,
-                                             double sign) const {
+/// @param out from the point, or from the axis at its place, @param sign −1: seen from inside
+TouchSurface::View TouchSurface::from_centre(const Vector3d& out, Round round, double sign,
+                                             bool with_curvature) const {
   const double length = out.norm();
   View view;
   view.distance = sign * (length - radius);
-  if (length > 0.0) {
-    view.normal = sign / length * out;
-    view.curvature = sign / length * (across - view.normal * view.normal.transpose());
-  } else {
+  if (!(length > 0.0)) {
     view.normal = axis.unitOrthogonal();
+    return view;
   }
+  view.normal = sign / length * out;
+  if (!with_curvature) return view;
+  view.curvature = Matrix3d::Identity() - view.normal * view.normal.transpose();
+  if (round == Round::axis) view.curvature -= axis * axis.transpose();
+  view.curvature *= sign / length;
   return view;
 }
 
-TouchSurface::View TouchSurface::from_cylinder(const Vector3d& point) const {
-  const Matrix3d across = Matrix3d::Identity() - axis * axis.transpose();
+TouchSurface::View TouchSurface::from_cylinder(const Vector3d& point, bool with_curvature) const {
   const double along = axis.dot(point);
-  const View beside = from_centre(point - along * axis, across, 1.0);
+  const View beside = from_centre(point - along * axis, Round::axis, 1.0, with_curvature);
   View beyond;
   beyond.normal = along < 0.0 ? Vector3d(-axis) : axis;
   beyond.distance = std::abs(along) - half_length;
@@ -39,6 +39,7 @@ TouchSurface::View TouchSurface::from_cylinder(const Vector3d& point) const {
   View rim;
   rim.distance = std::hypot(beside.distance, beyond.distance);
   rim.normal = (beside.distance * beside.normal + beyond.distance * beyond.normal) / rim.distance;
+  if (!with_curvature) return rim;
   // Around the circle, and along it.
   const Vector3d turned =
       (beside.distance * beyond.normal - beyond.distance * beside.normal) / rim.distance;
@@ -47,7 +48,7 @@ TouchSurface::View TouchSurface::from_cylinder(const Vector3d& point) const {
   return rim;
 }
 
-TouchSurface::View TouchSurface::from_box(const Vector3d& point) const {
+TouchSurface::View TouchSurface::from_box(const Vector3d& point, bool with_curvature) const {
   Vector3d beyond = point.cwiseAbs() - half;
   if (flat >= 0) beyond[flat] = -HUGE_VAL;
   const Vector3d side = point.unaryExpr([](double x) { return x < 0.0 ? -1.0 : 1.0; });
@@ -61,34 +62,33 @@ TouchSurface::View TouchSurface::from_box(const Vector3d& point) const {
   const Vector3d out = beyond.cwiseMax(0.0).cwiseProduct(side);
   view.distance = out.norm();
   view.normal = out / view.distance;
+  if (!with_curvature) return view;
   const Vector3d free = (beyond.array() > 0.0).cast<double>();
   view.curvature =
       (Matrix3d(free.asDiagonal()) - view.normal * view.normal.transpose()) / view.distance;
   return view;
 }
 
-TouchSurface::View TouchSurface::look(const Vector3d& point) const {
-  const Matrix3d all = Matrix3d::Identity();
+TouchSurface::View TouchSurface::look(const Vector3d& point, bool with_curvature) const {
   const double along = axis.dot(point);
   switch (kind) {
     case Kind::plane:
       return {along, axis, Matrix3d::Zero()};
     case Kind::sphere:
-      return from_centre(point, all, 1.0);
+      return from_centre(point, Round::point, 1.0, with_curvature);
     case Kind::socket:
-      return from_centre(point, all, -1.0);
+      return from_centre(point, Round::point, -1.0, with_curvature);
     case Kind::bore:
-      return from_centre(point - along * axis, all - axis * axis.transpose(), -1.0);
+      return from_centre(point - along * axis, Round::axis, -1.0, with_curvature);
     case Kind::capsule: {
       const double nearest = std::clamp(along, -half_length, half_length);
-      const bool is_beside = nearest == along;
-      return from_centre(point - nearest * axis,
-                         is_beside ? Matrix3d(all - axis * axis.transpose()) : all, 1.0);
+      const Round round = nearest == along ? Round::axis : Round::point;
+      return from_centre(point - nearest * axis, round, 1.0, with_curvature);
     }
     case Kind::cylinder:
-      return from_cylinder(point);
+      return from_cylinder(point, with_curvature);
     case Kind::box:
-      return from_box(point);
+      return from_box(point, with_curvature);
   }
   return {};
 }

@@ -22,12 +22,15 @@ struct TouchSurface {
     Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();    ///< gradient of the distance
     Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();  ///< its second derivatives [1/m]
   };
-  View look(const Eigen::Vector3d& point) const;
+  /// @param with_curvature false: the second derivatives are left zero
+  View look(const Eigen::Vector3d& point, bool with_curvature = true) const;
 
  private:
-  View from_centre(const Eigen::Vector3d& out, const Eigen::Matrix3d& across, double sign) const;
-  View from_cylinder(const Eigen::Vector3d& point) const;
-  View from_box(const Eigen::Vector3d& point) const;
+  /// Around a point, or around an axis.
+  enum class Round { point, axis };
+  View from_centre(const Eigen::Vector3d& out, Round round, double sign, bool with_curvature) const;
+  View from_cylinder(const Eigen::Vector3d& point, bool with_curvature) const;
+  View from_box(const Eigen::Vector3d& point, bool with_curvature) const;
 };
 
 }  // namespace buckens::spatial

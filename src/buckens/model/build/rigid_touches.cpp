@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "buckens/loads/shape_distance.h"
 #include "buckens/spatial/box_touch.h"
 
 namespace buckens::model {
@@ -11,7 +12,6 @@ namespace buckens::model {
 using Eigen::Vector3d;
 using loads::ContactShape;
 using spatial::RigidTouch;
-using spatial::TouchSurface;
 using ShapeKind = ContactShape::Kind;
 using Feature = RigidTouch::Feature;
 
@@ -19,40 +19,6 @@ namespace {
 
 // Share of the radius at which points lie that stay on an end.
 constexpr double kInsideRim = 0.9999;
-
-TouchSurface surface_of(const ContactShape& shape) {
-  TouchSurface out;
-  switch (shape.kind) {
-    case ShapeKind::plane:
-    case ShapeKind::mesh:  // has no rigid touch
-      out.kind = TouchSurface::Kind::plane;
-      break;
-    case ShapeKind::sphere:
-      out.kind = TouchSurface::Kind::sphere;
-      break;
-    case ShapeKind::socket:
-      out.kind = TouchSurface::Kind::socket;
-      break;
-    case ShapeKind::bore:
-      out.kind = TouchSurface::Kind::bore;
-      break;
-    case ShapeKind::capsule:
-      out.kind = TouchSurface::Kind::capsule;
-      break;
-    case ShapeKind::cylinder:
-      out.kind = TouchSurface::Kind::cylinder;
-      break;
-    case ShapeKind::box:
-      out.kind = TouchSurface::Kind::box;
-      break;
-  }
-  out.axis = shape.axis;
-  out.radius = shape.radius;
-  out.half_length = shape.half_length;
-  out.half = shape.half;
-  out.flat = shape.flat;
-  return out;
-}
 
 std::vector<Vector3d> ends_of(const ContactShape& shape) {
   return {shape.half_length * shape.axis, -shape.half_length * shape.axis};
@@ -100,7 +66,7 @@ class TouchList {
   void add_points(Feature feature, const ContactShape& surface, const ContactShape& points) {
     RigidTouch::Data data;
     data.feature = feature;
-    data.surface = surface_of(surface);
+    data.surface = loads::touch_surface(surface);
     const bool has_corners = points.kind == ShapeKind::box;
     const bool has_ends = points.kind == ShapeKind::capsule || points.kind == ShapeKind::cylinder;
     data.radius = has_corners ? 0.0 : points.radius;
@@ -116,7 +82,7 @@ class TouchList {
     if (out_of_plane_) return;
     RigidTouch::Data data;
     data.feature = Feature::axes;
-    data.surface = surface_of(first_);
+    data.surface = loads::touch_surface(first_);
     data.radius = second_.radius;
     data.axis = second_.axis;
     data.half_length = second_.half_length;
@@ -126,8 +92,8 @@ class TouchList {
   void add_boxes() {
     RigidTouch::Data data;
     data.feature = Feature::boxes;
-    data.surface = surface_of(first_);
-    data.second = surface_of(second_);
+    data.surface = loads::touch_surface(first_);
+    data.second = loads::touch_surface(second_);
     const int count = out_of_plane_ ? 2 : spatial::kBoxDirections;
     for (data.direction = 0; data.direction < count; ++data.direction) {
       add(data, {Vector3d::Zero()});
@@ -138,7 +104,7 @@ class TouchList {
   void add_rim(double end) {
     RigidTouch::Data data;
     data.feature = Feature::rim;
-    data.surface = surface_of(first_);
+    data.surface = loads::touch_surface(first_);
     data.radius = second_.radius;
     data.axis = second_.axis;
     const Vector3d middle = end * second_.half_length * second_.axis;
