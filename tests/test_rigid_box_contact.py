@@ -227,3 +227,40 @@ output: {{every: 10 ms, sensors: {{p: {{position: box}}, v: {{velocity: box}}, w
     assert min(abs(out["p.z"][-1] - side / 2) for side in sides) < depth
     assert max(abs(out[f"v.{axis}"][-1]) for axis in "xyz") < speed
     assert max(abs(out[f"w.{axis}"][-1]) for axis in "xyz") * max(sides) < speed
+
+
+def test_an_event_takes_a_floor_away(sensors):
+    """A box slides on two floors in one place, which share its weight, until one of them is switched off; another falls freely then."""
+    box = "rigid: {mass: 2 kg, inertia: [8e-3, 8e-3, 8e-3]}"
+    out = sensors(f"""
+buckens: 1
+gravity: [0, 0, -{G}]
+bodies: {{a: {{{box}, at: {{position: [0, 0, 0.05]}}}}, b: {{{box}, at: {{position: [0, 1, 0.05]}}}}}}
+signals: {{late: "t - 0.1"}}
+events: {{drop: {{when: late, direction: rising, switch-off: [c, d]}}}}
+loads:
+  c: {{contact: {{between: [ground, a], shapes: [{{plane: {{}}}}, {{box: [0.2, 0.2, 0.1]}}], static: 0.2}}}}
+  d: {{contact: {{between: [ground, b], shapes: [{{plane: {{}}}}, {{box: [0.2, 0.2, 0.1]}}], static: 0.2}}}}
+  e: {{contact: {{between: [ground, b], shapes: [{{plane: {{}}}}, {{box: [0.2, 0.2, 0.1]}}], static: 0.4}}}}
+initial: {{bodies: {{a: {{velocity: [1, 0, 0]}}, b: {{velocity: [1, 0, 0]}}}}}}
+simulation: {{duration: 0.4 s, step: 2 ms}}
+output: {{every: 10 ms, sensors: {{a: {{velocity: a}}, b: {{velocity: b}}, c: {{contact: c}}, d: {{contact: d}}, e: {{contact: e}}}}}}
+""")
+    t = out["t"]
+    # The event is found to a sixteenth of the step.
+    late, before, after = G * 2e-3 / 16, (t > 0) & (t < 0.095), t > 0.105
+    assert out["a.z"][after] == pytest.approx(-G * (t[after] - 0.1), abs=late)
+    assert out["a.x"][after] == pytest.approx(1 - 0.2 * G * 0.1, abs=0.2 * late)
+    assert numpy.ptp(out["a.x"][after]) < 1e-12
+    assert numpy.abs(out["c.normal"][after]).max() == 0
+    # How both floors share the weight is not told, but the friction is that of their shares.
+    for row in numpy.flatnonzero(before)[1:]:
+        friction = 0.2 * out["d.normal"][row] + 0.4 * out["e.normal"][row]
+        assert out["b.x"][row + 1] - out["b.x"][row] == pytest.approx(-friction / 2 * 10e-3, rel=1e-6)
+        assert out["d.normal"][row] + out["e.normal"][row] == pytest.approx(2 * G, rel=1e-9)
+    # The second goes on alone, and stops.
+    start = out["b.x"][after][0]
+    slides = after & (out["b.x"] > 0.01)
+    assert out["b.x"][slides] == pytest.approx(start - 0.4 * G * (t[slides] - t[after][0]), abs=1e-9)
+    assert out["e.normal"][after] == pytest.approx(2 * G, rel=1e-9)
+    assert numpy.abs(out["b.x"][t > t[after][0] + start / (0.4 * G) + 3e-3]).max() < 1e-12

@@ -158,11 +158,35 @@ class SettledMotion {
   double change_before_ = HUGE_VAL;
 };
 
+/// The rigid contact with friction whose forces have changed most. @param before memories of laws
+const std::string& restless_contact(const model::Model& model, const linalg::Vector& before,
+                                    const linalg::Vector& laws) {
+  const model::Load* worst = &*find_rough_contact(model);
+  double most = 0.0;
+  for (const model::Load& load : model.loads) {
+    if (dynamic_cast<const loads::ContactFriction*>(load.element.get()) == nullptr) continue;
+    // The row across comes before those along.
+    const int across = load.first_state - load.element->num_states();
+    for (const int force : {across + 1, load.first_state + 1}) {
+      const double change = std::abs(laws[force] - before[force]);
+      if (change > most) worst = &load;
+      most = std::max(most, change);
+    }
+  }
+  return worst->name;
+}
+
+/// What kept the rounds from coming to an end.
+struct Unrest {
+  std::string moved;    ///< names of the loads that moved in the last round
+  std::string contact;  ///< the one whose friction changed most, where none moved
+};
+
 /// @param rough where rigid contacts with friction are decided together, else null
-/// @param moved names of the loads that moved in the last round @return whether all have settled
+/// @return whether all have settled
 bool settle_in_rounds(const model::Model& model, const dynamics::MassMetric& metric,
                       const std::vector<int>& rows_in_use, RoughContacts* rough,
-                      model::State& state, std::string& moved) {
+                      model::State& state, Unrest& unrest) {
   std::vector<char> released(static_cast<std::size_t>(model.num_rigid_rows()));
   // Friction in contacts is that of the forces of the round before.
   const bool is_rough = find_rough_contact(model) != model.loads.end();
@@ -171,10 +195,12 @@ bool settle_in_rounds(const model::Model& model, const dynamics::MassMetric& met
     const linalg::Vector before = state.memory.laws;
     settle_accelerations(model, metric, rows_in_use, state);
     if (model.num_rigid_rows() == 0) return true;
-    moved = move_rows(model, rough, released, state);
+    unrest.moved = move_rows(model, rough, released, state);
     const double share = share_of(round);
-    if (moved.empty() && (!is_rough || motion.look(state, share))) return true;
-    if (moved.empty() && share < 1.0) take_back(model, before, 1.0 - share, state.memory.laws);
+    if (!unrest.moved.empty()) continue;
+    if (!is_rough || motion.look(state, share)) return true;
+    unrest.contact = restless_contact(model, before, state.memory.laws);
+    if (share < 1.0) take_back(model, before, 1.0 - share, state.memory.laws);
   }
   return false;
 }
@@ -183,27 +209,26 @@ bool settle_in_rounds(const model::Model& model, const dynamics::MassMetric& met
 
 void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& metric,
                        const std::vector<int>& rows_in_use, model::State& state) {
-  std::string moved;
-  const auto rough = find_rough_contact(model);
-  if (rough == model.loads.end()) {
-    if (settle_in_rounds(model, metric, rows_in_use, nullptr, state, moved)) return;
+  Unrest unrest;
+  if (find_rough_contact(model) == model.loads.end()) {
+    if (settle_in_rounds(model, metric, rows_in_use, nullptr, state, unrest)) return;
   } else {
     const model::State start = state;
-    if (settle_in_rounds(model, metric, rows_in_use, nullptr, state, moved)) return;
+    if (settle_in_rounds(model, metric, rows_in_use, nullptr, state, unrest)) return;
     state = start;
     RoughContacts contacts(model, rows_in_use);
-    if (settle_in_rounds(model, metric, rows_in_use, &contacts, state, moved)) return;
+    if (settle_in_rounds(model, metric, rows_in_use, &contacts, state, unrest)) return;
   }
-  if (moved.empty()) {
+  if (unrest.moved.empty()) {
     throw NumericalError(fmt::format(
         "load \"{}\" at t = {:.6g} s: its friction has no equilibrium with the forces that press "
         "the bodies, it jams; give the contact a `stiffness`, or less `static`",
-        rough->name, state.t));
+        unrest.contact, state.t));
   }
   throw NumericalError(
       fmt::format("at t = {:.6g} s no combination of holding and releasing satisfies all of the "
                   "rigid loads {}; give one of them a stiffness, or friction `stick: elastic`",
-                  state.t, moved));
+                  state.t, unrest.moved));
 }
 
 }  // namespace buckens::analysis
