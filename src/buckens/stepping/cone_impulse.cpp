@@ -104,9 +104,8 @@ double root(const Rate& rate, double at_zero, double first_guess) {
   }
   if (!(rate_high >= 0.0)) {
     throw StepFailure(
-        "friction takes all that would part the bodies, it jams; give the contact a `stiffness`, "
-        "or "
-        "less `static`");
+        "friction takes all that would part the bodies, it jams; give the contact a "
+        "`stiffness`, or less `static`");
   }
   bool was_high = false;
   for (int k = 0; k < kMostTries && high - low > kLastDigits * high; ++k) {

@@ -16,7 +16,9 @@ namespace buckens::stepping {
 ///
 /// From the forces and rates that the iteration has come to, forces are found that satisfy (I1) and
 /// (I2) with what the rates change by them; rows then stand accordingly. On its own, each
-/// would know only its own force. Theory: docs/theory/25-contact.md §4.
+/// would know only its own force. Where more places hold than are needed, one of them may be given
+/// more than its own cone admits, if all together hold within theirs. Theory:
+/// docs/theory/25-contact.md §4.
 class ContactCones {
  public:
   explicit ContactCones(const model::Model& model);

@@ -158,7 +158,11 @@ Vector solve_together(const Matrix& D, const Vector& b, Eigen::Index num_across,
                       const std::vector<ImpactSlip>& slips) {
   const auto across = Eigen::seqN(Eigen::Index{0}, num_across);
   Vector smooth = Vector::Zero(D.rows());
-  smooth(across) = solve_complementarity(D(across, across), b(across));
+  try {
+    smooth(across) = solve_complementarity(D(across, across), b(across));
+  } catch (const StepFailure&) {
+    if (slips.empty()) throw;  // else it is a start only
+  }
   if (slips.empty()) return smooth;
   const Places places(D, b, num_across, slips);
   Vector P = smooth;

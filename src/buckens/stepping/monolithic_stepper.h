@@ -25,7 +25,8 @@ namespace buckens::stepping {
 ///     W κ − GᵀE = 0     K̂ η − PΛ_η − NᵀGᵀE = 0           Pᵀη = 0     g(end) = 0
 ///
 /// Closed rigid rows of force laws go with the joints. Impacts are not its business: a state that
-/// they change can be given to it.
+/// they change can be given to it. Friction of rigid contacts is decided row by row here, not for
+/// all places together.
 ///
 /// No sieve, no interface compliance, no condensation: it shares the physics (dynamics) and the
 /// coefficients of the method (Scheme) with Stepper, and must arrive at the same state. Coupling

@@ -26,7 +26,7 @@ class PushAnswers {
   explicit PushAnswers(const model::Model& model) : model_(model) {}
 
   /// @param compliance of each body, must outlive the answers, @param rows_in_use independent rows
-  /// @param closed rigid rows of force laws that hold, too
+  /// @param closed rigid rows of force laws that also hold
   /// @return false if the joint rows are dependent there
   bool condense(const std::vector<dynamics::BodyCompliance>& compliance,
                 const std::vector<dynamics::BodyMotion>& motions,
