@@ -129,7 +129,7 @@ TWO = ("bodies: {b0: {rigid: {mass: 1 kg, inertia: [1, 1, 1]}, at: {position: [0
     ("among: [{on: b0, bodies: b1, sphere: 0.1}], stiffness: 1e5", 2, ["give exactly one of them"]),
     ("among: [{bodies: \"bal*\", sphere: 0.1}], stiffness: 1e5", 2, ["there is no body \"bal*\""]),
     ("among: [{bodies: \"b*\", socket: 0.1}], stiffness: 1e5", 2, ["a socket and a socket cannot touch", "`against`"]),
-    ("among: [{bodies: \"b*\", cylinder: {radius: 0.1, length: 0.1}}], stiffness: 1e5, exponent: 1.5", 2, ["a cylinder and a cylinder touch with an area", "remove `exponent`"]),
+    ("among: [{bodies: \"b*\", cylinder: {radius: 0.1, length: 0.1}}], stiffness: 1e5, exponent: 1.5", 2, ["a cylinder and a cylinder share a volume", "remove `exponent`"]),
     ("among: [{bodies: \"b*\", sphere: 0.4}], stiffness: 1e5", 2, ["b0 and b1 overlap by 0.5 m as placed"]),
     ("among: [{on: ground, plane: [0, 0, -1]}, {bodies: \"b*\", sphere: 0.1}], stiffness: 1e5", 2, ["overlap by 0.2 m", "turn the plane's normal"]),
     ("among: [{on: ground, plane: {}}, {bodies: \"b*\", box: [0.1, 0.1, 0.1]}], modulus: 1 GPa", 2, ["Hertz has no force for a plane and a box"]),

@@ -70,8 +70,7 @@ loads: {{c: {{contact: {{between: [{table}, body], shapes: [{{box: [2, 1, 1]}}, 
 simulation: {{duration: {duration}, step: STEP}}
 output: {{every: 2 ms, sensors: {{p: {{position: body}}, v: {{velocity: body}}, w: {{angular-velocity: body}}, c: {{contact: c}}, balance: {{energy: balance}}}}}}
 """
-ROD = dict(ix=0.06, iy=0.06, iz=4e-3, shape="capsule: {radius: 50 mm, length: 0.6, axis: [1, 0, 0]}", table=TABLE)
-ROD.update(ix=4e-3, iz=0.06)
+ROD = dict(ix=4e-3, iy=0.06, iz=0.06, shape="capsule: {radius: 50 mm, length: 0.6, axis: [1, 0, 0]}", table=TABLE)
 
 
 def test_a_rod_falls_flat_on_a_box_and_comes_back(sensors):

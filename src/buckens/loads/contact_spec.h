@@ -31,10 +31,10 @@ struct ContactForceSpec {
     visit(base::field(
               "stiffness", stiffness,
               "force at 1 m of overlap: N/m, with an `exponent` n other than 1 the number "
-              "of N/m^n; of each point of a box, capsule or cylinder that touches; of two "
-              "boxes, a cylinder and a box or cylinder, or a mesh and a plane, of each quarter of "
-              "an area like the mean face of the smaller one (of a cylinder an end, of a mesh a "
-              "sixth of the surface)")
+              "of N/m^n; of each point of a box, capsule or cylinder that touches (of two capsules "
+              "side by side, 35/48 of it at each end); of two boxes, a cylinder and a box or "
+              "cylinder, or a mesh and a plane, of each quarter of an area like the mean face of "
+              "the smaller one (of a cylinder an end, of a mesh a sixth of the surface)")
               .in(base::kStiffness)
               .positive()
               .like("1e7 N/m")

@@ -138,9 +138,10 @@ Found exponent_problem(const loads::ContactForceSpec& spec, const std::string& f
   if (!are("plane", "mesh") && !are("box", "cylinder") && !are("cylinder", "cylinder")) {
     return std::nullopt;
   }
-  return Finding{"exponent", fmt::format("a {} and a {} touch with an area, over which forces grow "
-                                         "linearly; remove `exponent`",
-                                         first, second)};
+  const char* what = are("plane", "mesh") ? "touch with an area" : "share a volume";
+  return Finding{"exponent",
+                 fmt::format("a {} and a {} {}, over which forces grow linearly; remove `exponent`",
+                             first, second, what)};
 }
 
 Found elastic_problem(const loads::ContactSpec& spec) {

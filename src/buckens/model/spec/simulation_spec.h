@@ -117,7 +117,8 @@ struct SimulationSpec {
                       "be combined in place of second large solves; 0: none, at most 1000")
               .non_negative());
     visit(base::field("max-iterations", max_iterations,
-                      "maximum number of Newton iterations in a step")
+                      "maximum number of Newton iterations in a step, counted anew when rigid rows "
+                      "close, open, stick or slide")
               .positive());
     visit(base::field("max-outer-iterations", max_outer_iterations,
                       "maximum number of large solves in a step")
