@@ -121,7 +121,9 @@ if(together)
 endif()
 # Processes that wait for each other: beside other tests they would wait for processors, too. What needs all processors
 # comes first, or the others would have to wait for it at the end.
-set_tests_properties(cli.mpi PROPERTIES PROCESSORS 2 COST 1000)
+if(TEST cli.mpi)
+  set_tests_properties(cli.mpi PROPERTIES PROCESSORS 2 COST 1000)
+endif()
 foreach(test verification_test run_store_test model_file_test linalg_test fem_test mesh_io_test)
   if(TEST ${test})
     set_tests_properties(${test} PROPERTIES COST 70)
