@@ -26,7 +26,7 @@ pages="$(mktemp -d)"
 trap 'rm -rf "$pages"' EXIT
 say "Pages of the C++ library"
 # The public headers: all that include/buckens/buckens.h includes.
-headers="$(g++ -std=c++20 -MM -Iinclude -Isrc -Ibuild/release/generated -isystem /usr/include/eigen3 include/buckens/buckens.h |
+headers="$(clang++-14 -std=c++20 -MM -Iinclude -Isrc -Ibuild/release/generated -isystem /usr/include/eigen3 include/buckens/buckens.h |
   tr -s ' \\\n' '\n' | grep '\.h$' | tr '\n' ' ')"
 sed -e "s,@OUTPUT@,$pages," -e "s,@HEADERS@,$headers," docs/site/Doxyfile.in >"$pages/Doxyfile"
 doxygen "$pages/Doxyfile" >/dev/null

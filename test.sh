@@ -16,7 +16,7 @@ buckens_setup
 # All of it, whatever ./demo.sh left out.
 configure_release -DBUCKENS_TESTS=ON -DBUCKENS_BENCH=ON -DBUCKENS_PYTHON_MODULE=ON "${with[@]}"
 if [ "$(werror_setting)" = OFF ]; then
-  warn "this is not g++ 12; compiler warnings are shown but do not fail the build."
+  warn "this is neither clang 14 nor g++ 12; compiler warnings are shown but do not fail the build."
 fi
 say "Building (preset release)"
 build_release all buckens_headers

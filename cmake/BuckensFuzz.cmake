@@ -1,7 +1,7 @@
 # Fuzz programs: tests/fuzz/<target>_fuzz.cpp with seeds in tests/fuzz/corpus/<target>.
 #
 # The readers under test are compiled once more, by clang with libFuzzer and sanitizers; everything
-# else comes from the library as g++ built it. Without clang there are no fuzz tests.
+# else comes from the library as it was built. Without clang there are no fuzz tests.
 #
 # buckens_fuzz(target seconds source-pattern...): patterns below src/buckens, of the sources to
 # instrument. They are compiled in one piece, so names in their anonymous namespaces must differ; the

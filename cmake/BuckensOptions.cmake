@@ -41,6 +41,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(buckens_options INTERFACE "SHELL:--param=ggc-min-heapsize=1048576"
                                                    "SHELL:--param=ggc-min-expand=100")
 endif()
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  # Of clang it is a part of -Wconversion, of GCC it is not.
+  target_compile_options(buckens_options INTERFACE -Wno-sign-conversion)
+endif()
 if(BUCKENS_WERROR)
   target_compile_options(buckens_options INTERFACE -Werror)
 endif()

@@ -28,7 +28,7 @@ fi
 # The compilation database lists unity pieces, not sources: so flags are given here.
 flags=(-std=c++20 -DBUCKENS_GMSH_LIBRARY=\"libgmsh.so\" -Isrc -Iapps "-I$build/generated" -isystem /usr/include/eigen3
   -isystem /usr/include/hdf5/serial -isystem /usr/include/suitesparse -isystem /usr/include/cairo
-  -isystem "/usr/include/$(gcc -print-multiarch)/openblas-openmp")
+  -isystem "/usr/include/$(clang-14 -print-multiarch)/openblas-openmp")
 if ! printf '%s\0' "${files[@]}" |
   xargs -0 --max-args 1 --max-procs "$(nproc)" -I '{}' clang-tidy-14 --quiet '{}' -- "${flags[@]}" 2>/dev/null; then
   echo "tidy: errors" >&2

@@ -7,7 +7,7 @@ buckens_root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 
 # Debian packages that program and page are built with; keep consistent with cmake/BuckensDependencies.cmake.
 buckens_build_packages=(
-  g++ cmake ninja-build ccache ca-certificates
+  clang-14 cmake ninja-build ccache ca-certificates
   libeigen3-dev libfmt-dev libspdlog-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
   libmuparser-dev libhdf5-dev libgmsh-dev zlib1g-dev libsuitesparse-dev libmetis-dev
   libopenblas-openmp-dev libspectra-dev libcairo2-dev libcpp-httplib-dev
@@ -16,7 +16,7 @@ buckens_build_packages=(
 buckens_packages=(
   "${buckens_build_packages[@]}" git
   libgtest-dev libgmock-dev libbenchmark-dev
-  clang-format-14 clang-14 libclang-rt-14-dev
+  clang-format-14 libclang-rt-14-dev
   python3 python3-pytest python3-numpy python3-h5py python3-vtk9
   python3-dev python3-venv pybind11-dev mypy
   python3-matplotlib python3-pandas python3-scipy python3-distributed python3-nbclient python3-ipykernel python3-yaml python3-jsonschema
@@ -125,11 +125,25 @@ install_npm_packages() {
   echo "$sum" >"$stamp"
 }
 
-# Warnings are errors with the compiler used for testing; others may have more warnings.
+# The compiler that the build folder has, or will have: as in cmake/BuckensCompiler.cmake, which leaves none in the cache.
+compiler() {
+  local cached
+  cached="$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' "$buckens_root/build/release/CMakeCache.txt" 2>/dev/null)" || true
+  if [ -n "$cached" ]; then
+    echo "$cached"
+  elif [ -n "${CC:-}${CXX:-}" ] || ! has_command clang++-14; then
+    echo "${CXX:-c++}"
+  else
+    echo clang++-14
+  fi
+}
+
+# Warnings are errors with the compilers that the sources are known to have none with; others may have more.
 werror_setting() {
-  local major
-  major="$("${CXX:-g++}" -dumpversion 2>/dev/null | cut -d. -f1)"
-  if [ "$major" = 12 ]; then echo ON; else echo OFF; fi
+  case "$("$(compiler)" --version 2>/dev/null | head -n 1)" in
+    *clang\ version\ 14.* | g++*\ 12.* | c++*\ 12.*) echo ON ;;
+    *) echo OFF ;;
+  esac
 }
 
 # configure_release [OPTION...], such as -DBUCKENS_TESTS=ON

@@ -14,6 +14,12 @@
 
 namespace buckens::cli {
 
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+}  // namespace
+
 Failure describe_failure(const std::exception_ptr& thrown) {
   try {
     std::rethrow_exception(thrown);
@@ -46,7 +52,6 @@ Failure describe_failure(const std::exception_ptr& thrown) {
 }
 
 std::string failure_json(const Failure& failure) {
-  using Json = nlohmann::ordered_json;
   const SourceLocation& where = failure.where;
   const Json error = {{"kind", failure.kind},
                       {"message", failure.message},

@@ -35,7 +35,7 @@ class RangeChecker {
     } else if constexpr (base::kIsOptional<T>) {
       if (value) visit(*value);
     } else if constexpr (base::kIsVariant<T>) {
-      std::visit([this](const auto& alternative) { visit(alternative); }, value);
+      std::visit([&](const auto& alternative) { visit(alternative); }, value);
     } else if constexpr (base::kIsArray<T> || base::kIsVector<T>) {
       for (const auto& item : value) visit(item);
     } else if constexpr (base::HasFields<T>) {

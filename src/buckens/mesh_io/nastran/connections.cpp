@@ -17,9 +17,9 @@ using Variables = NastranVariables;
 
 class ConnectionBuilder {
  public:
-  ConnectionBuilder(const NastranBulk& bulk, const NastranCoordinates& coordinates,
-                    NastranNotes& notes, fem::ImportedMesh& mesh)
-      : bulk_(bulk), coordinates_(coordinates), notes_(notes), mesh_(mesh) {}
+  ConnectionBuilder(const NastranCoordinates& coordinates, NastranNotes& notes,
+                    fem::ImportedMesh& mesh)
+      : coordinates_(coordinates), notes_(notes), mesh_(mesh) {}
 
   void add_rbe3(const NastranCard& card);
   void add_mpc(const NastranCard& card);
@@ -33,7 +33,6 @@ class ConnectionBuilder {
   }
   std::array<bool, 3> read_weight(const NastranCard& card, int field, double& weight);
 
-  const NastranBulk& bulk_;
   const NastranCoordinates& coordinates_;
   NastranNotes& notes_;
   fem::ImportedMesh& mesh_;
@@ -180,7 +179,7 @@ void add_nastran_connections(const NastranBulk& bulk, bool has_control,
                              const std::optional<std::int64_t>& mpc_set,
                              const NastranCoordinates& coordinates, NastranNotes& notes,
                              fem::ImportedMesh& mesh) {
-  ConnectionBuilder builder(bulk, coordinates, notes, mesh);
+  ConnectionBuilder builder(coordinates, notes, mesh);
   add_nastran_rigid_elements(bulk, coordinates, notes, mesh);
   for (const NastranCard& card : bulk.cards_named("RBE3")) builder.add_rbe3(card);
   const std::set<std::int64_t> sets = chosen_sets(bulk, has_control, mpc_set, notes);

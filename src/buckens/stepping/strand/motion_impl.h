@@ -79,7 +79,8 @@ double move_block(const Constants& is, double* t) {
   using Slot = SlotRows<S>;
   using In = Of<S>;
   Lanes furthest;
-  const auto u_turn = rotation_of<S>(t, Row::u), u_shift = translation_of<S>(t, Row::u);
+  const auto u_turn = rotation_of<S>(t, Row::u);
+  const auto u_shift = translation_of<S>(t, Row::u);
   Numbers<S::Q> q = In::product(take<S::Q>(t, Row::q),
                                 In::half_turn(u_turn + rotation_of<S>(t, Row::corr), furthest));
   normalize(q);
