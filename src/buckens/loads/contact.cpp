@@ -36,12 +36,14 @@ int bucket(double value) {
 
 Vector3d read_vector(const double* states) { return {states[0], states[1], states[2]}; }
 
-/// Row of the relative velocity of both bodies at a place along a direction.
-spatial::PairRow row_along(const Vector3d& direction, const Vector3d& place, const Sight& sight) {
+/// Row of the relative velocity of both bodies at a place along a direction, and of their turns by
+/// what a couple beside a force of one does.
+spatial::PairRow row_along(const Vector3d& direction, const Vector3d& place, const Sight& sight,
+                           const Vector3d& couple = Vector3d::Zero()) {
   spatial::PairRow J;
-  J.segment<3>(0) = -(place - sight.first.p).cross(direction).transpose();
+  J.segment<3>(0) = -((place - sight.first.p).cross(direction) + couple).transpose();
   J.segment<3>(3) = -direction.transpose();
-  J.segment<3>(6) = (place - sight.second.p).cross(direction).transpose();
+  J.segment<3>(6) = ((place - sight.second.p).cross(direction) + couple).transpose();
   J.segment<3>(9) = direction.transpose();
   return J;
 }
@@ -72,9 +74,21 @@ Contact::Stand Contact::stand_of(const Sight& sight) {
           Quaterniond(Eigen::Matrix3d(R_FW * sight.second.R))};
 }
 
-std::span<const Contact::Point> Contact::look(const Sight& sight, Points& memory) const {
+template <class F>
+auto Contact::with_points(const Sight& sight, F&& f) const {
+  // Most pairs touch once or twice; the memory for many takes longer to clear than to look.
+  constexpr std::size_t kFew = 2;
+  if (pair_.num_spots() <= static_cast<int>(kFew)) {
+    Memory<kFew> few;
+    return f(look(sight, few.spots, few.points));
+  }
+  Memory<ContactPair::kMostSpots> many;
+  return f(look(sight, many.spots, many.points));
+}
+
+std::span<const Contact::Point> Contact::look(const Sight& sight, std::span<ContactSpot> spots,
+                                              std::span<Point> points) const {
   const Stand now = stand_of(sight);
-  ContactPair::Spots spots;
   pair_.find(now.r, now.q.toRotationMatrix(), spots);
   const double* states = sight.states;
   Vector3d shift = Vector3d::Zero();
@@ -87,18 +101,18 @@ std::span<const Contact::Point> Contact::look(const Sight& sight, Points& memory
   const auto count = static_cast<std::size_t>(pair_.num_spots());
   for (std::size_t k = 0; k < count; ++k) {
     const ContactSpot& spot = spots[k];
-    Point& point = memory[k] = {};
+    Point& point = points[k] = {};
     point.normal = sight.first.R * spot.normal;
     point.place = sight.first.p + sight.first.R * spot.place;
     point.gap = spot.gap;
     const Vector3d v = sight.second.v + sight.second.w.cross(point.place - sight.second.p) -
                        sight.first.v - sight.first.w.cross(point.place - sight.first.p);
-    point.gap_rate = point.normal.dot(v);
-    point.slip = v - point.gap_rate * point.normal;
+    const double across = point.normal.dot(v);
+    point.slip = v - across * point.normal;
+    point.couple = sight.first.R * spot.couple;
+    point.gap_rate = across + point.couple.dot(sight.second.w - sight.first.w);
     const double* own = nullptr;
-    if (states != nullptr) {
-      own = has_friction() ? states + kCommon + kOfPoint * static_cast<int>(k) : states + k;
-    }
+    if (states != nullptr) own = states + first_state(k);
     point.across =
         normal_force(data_, -point.gap, -point.gap_rate, own != nullptr ? own[kApproach] : 0.0);
     if (spot.share != 1.0) point.across *= spot.share;
@@ -116,7 +130,7 @@ std::span<const Contact::Point> Contact::look(const Sight& sight, Points& memory
     }
     point.along = friction_force(data_, strain, point.slip, point.across.force);
   }
-  return {memory.data(), count};
+  return points.first(count);
 }
 
 double Contact::strain_energy(std::span<const Point> points) const {
@@ -135,25 +149,27 @@ double Contact::strain_power(const Sight& sight, double energy) const {
 }
 
 Action Contact::respond(const Sight& sight) const {
-  Points memory;
-  const std::span<const Point> points = look(sight, memory);
-  Action out;
-  double power = 0;
-  for (const Point& point : points) {
-    if (!(point.gap < 0.0)) continue;
-    const Vector3d force = point.across.force * point.normal + point.along.force;
-    out.on_second += {(point.place - sight.second.p).cross(force), force};
-    out.on_first += {-(point.place - sight.first.p).cross(force), -force};
-    out.stored_energy += point.across.energy;
-    power += force.dot(point.slip + point.gap_rate * point.normal);
-    power -= point.across.elastic * point.gap_rate;  // what the elastic energy takes
-  }
-  const double held = strain_energy(points);
-  out.stored_energy += held;
-  out.active_power = power + strain_power(sight, held);
-  out.dissipation = -out.active_power;
-  out.regime = regime_of(sight, points);
-  return out;
+  return with_points(sight, [&](std::span<const Point> points) {
+    Action out;
+    double power = 0;
+    for (const Point& point : points) {
+      if (!(point.gap < 0.0)) continue;
+      const Vector3d force = point.across.force * point.normal + point.along.force;
+      const Vector3d couple = point.across.force * point.couple;
+      out.on_second += {(point.place - sight.second.p).cross(force) + couple, force};
+      out.on_first += {-(point.place - sight.first.p).cross(force) - couple, -force};
+      out.stored_energy += point.across.energy;
+      power += point.along.force.dot(point.slip);
+      // Without what the elastic energy takes.
+      power += (point.across.force - point.across.elastic) * point.gap_rate;
+    }
+    const double held = strain_energy(points);
+    out.stored_energy += held;
+    out.active_power = power + strain_power(sight, held);
+    out.dissipation = -out.active_power;
+    out.regime = regime_of(sight, points);
+    return out;
+  });
 }
 
 double Contact::braking_share(const Sight& sight, const Point& point) const {
@@ -178,29 +194,33 @@ int Contact::regime_of(const Sight& sight, std::span<const Point> points) const 
 }
 
 void Contact::append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const {
+  with_points(sight, [&](std::span<const Point> points) {
+    for (const Point& point : points) append_tangent_of(sight, point, rows);
+  });
+}
+
+void Contact::append_tangent_of(const Sight& sight, const Point& point,
+                                std::vector<SoftRow>& rows) const {
   const double k = data_.tangential_stiffness;
   const double c = 2.0 * std::sqrt(k * data_.inertia);
-  Points memory;
-  for (const Point& point : look(sight, memory)) {
-    SoftRow row;
-    row.J = row_along(point.normal, point.place, sight);
-    row.stiffness = point.across.stiffness;
-    row.damping = point.across.damping;
+  SoftRow row;
+  row.J = row_along(point.normal, point.place, sight, point.couple);
+  row.stiffness = point.across.stiffness;
+  row.damping = point.across.damping;
+  rows.push_back(row);
+  if (!has_friction()) return;
+  const Vector3d along =
+      point.along.along.isZero(0.0) ? point.normal.unitOrthogonal() : point.along.along;
+  // Without states, as in statics, there is no friction.
+  const double touches = point.gap < 0.0 && sight.states != nullptr ? 1.0 : 0.0;
+  // Sliding turns with the slip; along it the force is the same at any speed.
+  const double share = point.along.slides ? braking_share(sight, point) : 1.0;
+  for (const bool is_along : {true, false}) {
+    const Vector3d direction = is_along ? along : Vector3d(point.normal.cross(along));
+    row.J = row_along(direction, point.place, sight);
+    row.stiffness = touches * (is_along ? share : point.along.share) * k;
+    row.damping = touches * (is_along ? share : point.along.share) * c;
     rows.push_back(row);
-    if (!has_friction()) continue;
-    const Vector3d along =
-        point.along.along.isZero(0.0) ? point.normal.unitOrthogonal() : point.along.along;
-    // Without states, as in statics, there is no friction.
-    const double touches = point.gap < 0.0 && sight.states != nullptr ? 1.0 : 0.0;
-    // Sliding turns with the slip; along it the force is the same at any speed.
-    const double share = point.along.slides ? braking_share(sight, point) : 1.0;
-    for (const bool is_along : {true, false}) {
-      const Vector3d direction = is_along ? along : Vector3d(point.normal.cross(along));
-      row.J = row_along(direction, point.place, sight);
-      row.stiffness = touches * (is_along ? share : point.along.share) * k;
-      row.damping = touches * (is_along ? share : point.along.share) * c;
-      rows.push_back(row);
-    }
   }
 }
 
@@ -209,56 +229,61 @@ void Contact::start_states(const Sight& sight, double* states) const {
   fresh.states = nullptr;
   find_states(fresh, states);
   // What overlaps as it is seen for the first time closes with its speed then.
-  Points memory;
-  const std::span<const Point> points = look(fresh, memory);
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const int first =
-        has_friction() ? kCommon + kOfPoint * static_cast<int>(k) : static_cast<int>(k);
-    states[first + kApproach] = std::max(0.0, -points[k].gap_rate);
-  }
+  with_points(fresh, [&](std::span<const Point> points) {
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      states[first_state(k) + kApproach] = std::max(0.0, -points[k].gap_rate);
+    }
+  });
 }
 
 void Contact::find_states(const Sight& sight, double* states) const {
-  Points memory;
-  const std::span<const Point> points = look(sight, memory);
-  if (has_friction()) {
-    const Stand now = stand_of(sight);
-    const double energy = strain_energy(points);
-    states[kTime] = sight.t;
-    Eigen::Map<Vector3d>(states + kPosition) = now.r;
-    states[kRotation] = now.q.w();
-    Eigen::Map<Vector3d>(states + kRotation + 1) = now.q.vec();
-    states[kEnergy] = energy;
-    states[kPower] = strain_power(sight, energy);
-  }
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const Point& point = points[k];
-    const int first =
-        has_friction() ? kCommon + kOfPoint * static_cast<int>(k) : static_cast<int>(k);
-    double* own = states + first;
-    const double before = sight.states != nullptr ? sight.states[first + kApproach] : 0.0;
-    // While it is open: the speed at which it would close.
-    own[kApproach] = point.gap < 0.0 ? before : std::max(0.0, -point.gap_rate);
-    if (!has_friction()) continue;
-    const Vector3d lever = sight.first.R.transpose() * (point.place - sight.second.p);
-    Eigen::Map<Vector3d>(own + kLever) = lever;
-    Eigen::Map<Vector3d>(own + kStrain) = sight.first.R.transpose() * point.along.strain;
-  }
+  with_points(sight, [&](std::span<const Point> points) {
+    if (has_friction()) set_common_states(sight, points, states);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const Point& point = points[k];
+      const int first = first_state(k);
+      double* own = states + first;
+      const double before = sight.states != nullptr ? sight.states[first + kApproach] : 0.0;
+      // While it is open: the speed at which it would close.
+      own[kApproach] = point.gap < 0.0 ? before : std::max(0.0, -point.gap_rate);
+      if (!has_friction()) continue;
+      const Vector3d lever = sight.first.R.transpose() * (point.place - sight.second.p);
+      Eigen::Map<Vector3d>(own + kLever) = lever;
+      Eigen::Map<Vector3d>(own + kStrain) = sight.first.R.transpose() * point.along.strain;
+    }
+  });
+}
+
+int Contact::first_state(std::size_t point) const {
+  const int k = static_cast<int>(point);
+  return has_friction() ? kCommon + kOfPoint * k : k;
+}
+
+void Contact::set_common_states(const Sight& sight, std::span<const Point> points,
+                                double* states) const {
+  const Stand now = stand_of(sight);
+  const double energy = strain_energy(points);
+  states[kTime] = sight.t;
+  Eigen::Map<Vector3d>(states + kPosition) = now.r;
+  states[kRotation] = now.q.w();
+  Eigen::Map<Vector3d>(states + kRotation + 1) = now.q.vec();
+  states[kEnergy] = energy;
+  states[kPower] = strain_power(sight, energy);
 }
 
 ContactReading Contact::read(const Sight& sight) const {
-  Points memory;
-  const std::span<const Point> points = look(sight, memory);
-  ContactReading out;
-  out.gap = points.front().gap;
-  Vector3d along = Vector3d::Zero();
-  for (const Point& point : points) {
-    out.normal += point.across.force;
-    along += point.along.force;
-    out.gap = std::min(out.gap, point.gap);
-  }
-  out.friction = along.norm();
-  return out;
+  return with_points(sight, [](std::span<const Point> points) {
+    ContactReading out;
+    out.gap = points.front().gap;
+    Vector3d along = Vector3d::Zero();
+    for (const Point& point : points) {
+      out.normal += point.across.force;
+      along += point.along.force;
+      out.gap = std::min(out.gap, point.gap);
+    }
+    out.friction = along.norm();
+    return out;
+  });
 }
 
 }  // namespace buckens::loads

@@ -46,6 +46,7 @@ class Contact final : public ForceElement {
   /// One point at one instant, world axes.
   struct Point {
     Eigen::Vector3d place, normal;
+    Eigen::Vector3d couple;  ///< beside the force across, per force [m]
     double gap = 0, gap_rate = 0;
     Eigen::Vector3d slip;  ///< speed of the second body along the surface [m/s]
     double moved = 0;      ///< along the surface since the start of the step [m]
@@ -59,11 +60,19 @@ class Contact final : public ForceElement {
   };
 
   /// Memory for them; nothing is allocated in a step.
-  using Points = std::array<Point, ContactPair::kMostSpots>;
+  template <std::size_t kSize>
+  struct Memory {
+    std::array<ContactSpot, kSize> spots;
+    std::array<Point, kSize> points;
+  };
 
   bool has_friction() const { return data_.static_coefficient > 0.0; }
   static Stand stand_of(const Sight& sight);
-  std::span<const Point> look(const Sight& sight, Points& memory) const;
+  /// Calls f(points), with memory for as many as there can be.
+  template <class F>
+  auto with_points(const Sight& sight, F&& f) const;
+  std::span<const Point> look(const Sight& sight, std::span<ContactSpot> spots,
+                              std::span<Point> points) const;
   /// Energy in the strains that friction holds [J].
   double strain_energy(std::span<const Point> points) const;
   /// Rate of that energy: over the step so far, or over the last one where none has begun [W].
@@ -71,6 +80,10 @@ class Contact final : public ForceElement {
   /// Share of the tangent along the slip that iterations need where sliding may end.
   double braking_share(const Sight& sight, const Point& point) const;
   int regime_of(const Sight& sight, std::span<const Point> points) const;
+  void append_tangent_of(const Sight& sight, const Point& point, std::vector<SoftRow>& rows) const;
+  /// Place of a point's states.
+  int first_state(std::size_t point) const;
+  void set_common_states(const Sight& sight, std::span<const Point> points, double* states) const;
 
   ContactPair pair_;
   ContactData data_;

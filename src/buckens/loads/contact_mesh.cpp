@@ -15,6 +15,8 @@ namespace {
 
 // Places on both sides of one border are the same if they are this near, as a share of the size.
 constexpr double kSameBorder = 1e-9;
+// Spacing of springs as a share of the side of the mean face, of which a surface has six.
+constexpr double kSpacing = 0.2, kFaces = 6.0;
 
 /// Sums over the triangles at a point. @param term (triangle, its corner there)
 template <class Term>
@@ -98,10 +100,10 @@ std::vector<std::uint32_t> colour_bits(const MeshTopology& from) {
 
 }  // namespace
 
-ContactMesh::ContactMesh(const spatial::TriangleList& triangles, double smooth)
-    : ContactMesh(MeshTopology(triangles, smooth, kMostColours)) {}
+ContactMesh::ContactMesh(const spatial::TriangleList& triangles, double smooth, double spacing)
+    : ContactMesh(MeshTopology(triangles, smooth, kMostColours), spacing) {}
 
-ContactMesh::ContactMesh(const MeshTopology& from)
+ContactMesh::ContactMesh(const MeshTopology& from, double spacing)
     : facets_(curved_facets(from)),
       vertices_(from.triangles),
       neighbours_(from.neighbours),
@@ -114,6 +116,7 @@ ContactMesh::ContactMesh(const MeshTopology& from)
       num_colours_(from.num_colours),
       is_closed_(from.is_closed) {
   for (const double area : from.areas) area_ += area;
+  spacing_ = spacing > 0.0 ? spacing : kSpacing * std::sqrt(area_ / kFaces);
   for (const auto& facet : facets_) {
     for (const Vector3d& corner : facet.corner) box_.extend(corner);
   }
@@ -127,6 +130,20 @@ ContactMesh::ContactMesh(const MeshTopology& from)
       outwards_[static_cast<std::size_t>(vertices_[t][(k + 1) % 3])].setZero();
     }
   }
+}
+
+const SurfacePoints& ContactMesh::springs() const {
+  std::call_once(springs_made_, [this] {
+    std::vector<std::array<bool, 3>> is_sharp(facets_.size());
+    for (std::size_t t = 0; t < facets_.size(); ++t) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int beyond = neighbours_[t][k];
+        is_sharp[t][k] = beyond < 0 || patches_[static_cast<std::size_t>(beyond)] != patches_[t];
+      }
+    }
+    springs_.emplace(facets_, is_sharp, spacing_);
+  });
+  return *springs_;
 }
 
 Vector3d ContactMesh::outwards(int facet, const CurvedFacet::Place& place) const {

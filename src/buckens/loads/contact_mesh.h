@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,6 +11,7 @@
 
 #include "buckens/loads/box_tree.h"
 #include "buckens/loads/curved_facet.h"
+#include "buckens/loads/surface_points.h"
 #include "buckens/spatial/triangle_list.h"
 
 namespace buckens::loads {
@@ -28,8 +31,9 @@ class ContactMesh {
 
   /// Joins corners at the same place.
   /// @param smooth up to this inclination neighbours belong to one patch [rad]
+  /// @param spacing of springs() [m]; 0: a fifth of the side of its mean face
   /// @throws InputError without a place if facets look to different sides, or all of them inwards
-  ContactMesh(const spatial::TriangleList& triangles, double smooth);
+  ContactMesh(const spatial::TriangleList& triangles, double smooth, double spacing = 0);
 
   /// A place of the surface and the distance of a point from it.
   struct Nearest {
@@ -56,10 +60,12 @@ class ContactMesh {
   /// Around the flat triangles.
   const Eigen::AlignedBox3d& box() const { return box_; }
   double area() const { return area_; }
+  /// Springs spread over the surface, for contact with another mesh; made when first asked for.
+  const SurfacePoints& springs() const;
   bool is_closed() const { return is_closed_; }
 
  private:
-  explicit ContactMesh(const MeshTopology& from);
+  ContactMesh(const MeshTopology& from, double spacing);
   Nearest finish(const Eigen::Vector3d& point, int facet, const CurvedFacet::Place& place) const;
   /// Direction out of the solid at a place; zero on the border of an open surface.
   Eigen::Vector3d outwards(int facet, const CurvedFacet::Place& place) const;
@@ -76,9 +82,11 @@ class ContactMesh {
   std::vector<Eigen::Vector3d> outwards_;       // at each vertex; zero on an open border
   BoxTree tree_;
   Eigen::AlignedBox3d box_;
-  double area_ = 0;
+  double area_ = 0, spacing_ = 0;
   int num_patches_ = 0, num_colours_ = 1;
   bool is_closed_ = false;
+  mutable std::once_flag springs_made_;
+  mutable std::optional<SurfacePoints> springs_;
 };
 
 }  // namespace buckens::loads

@@ -35,6 +35,8 @@ struct ContactSpot {
   double gap = 0;                                     ///< negative: overlap [m]
   double share = 1;                                   ///< of the law's stiffness
   double held = 0;  ///< energy beyond that of its overlap, per stiffness [m²]
+  Eigen::Vector3d couple = Eigen::Vector3d::Zero();  ///< beside its force, on the second, per force
+                                                     ///< [m]
 };
 
 /// Two shapes that can touch. The first is a surface, given by the distance from it
@@ -43,10 +45,11 @@ struct ContactSpot {
 /// box; a bore with a cylinder. Capsules touch capsules, boxes and cylinders along a line
 /// (loads/line_spots.h); two boxes touch with areas (loads/box_manifold.h), a plane and a mesh and
 /// a cylinder and a box or cylinder with volumes (loads/mesh_spots.h, loads/cylinder_spots.h); a
-/// mesh touches a sphere with each of its patches. Theory: docs/theory/25-contact.md §1, §6.
+/// mesh touches a sphere with each of its patches, and another mesh by springs spread over it
+/// (loads/mesh_on_mesh.h). Theory: docs/theory/25-contact.md §1, §6.
 class ContactPair {
  public:
-  static constexpr int kMostSpots = 8;
+  static constexpr int kMostSpots = 18;
   using Spots = std::array<ContactSpot, kMostSpots>;
 
   /// All pairs that can touch, first and second.
@@ -64,7 +67,7 @@ class ContactPair {
   /// @param r origin of the second marker in axes of the first [m]
   /// @param R orientation of the second marker in the first
   /// @param spots the first num_spots() of them are written
-  void find(const Eigen::Vector3d& r, const Eigen::Matrix3d& R, Spots& spots) const;
+  void find(const Eigen::Vector3d& r, const Eigen::Matrix3d& R, std::span<ContactSpot> spots) const;
 
   const ContactShape& first() const { return first_; }
   const ContactShape& second() const { return second_; }
@@ -75,6 +78,8 @@ class ContactPair {
                std::span<ContactSpot> spots) const;
   void rim_points(const Eigen::Vector3d& r, const Eigen::Matrix3d& R,
                   std::span<ContactSpot> spots) const;
+  /// Normal of the first where a rim around this centre is nearest to it.
+  Eigen::Vector3d normal_at_rim(const Eigen::Vector3d& centre, const Eigen::Vector3d& axis) const;
 
   ContactShape first_, second_;
   double radius_ = 0;  // of the spheres

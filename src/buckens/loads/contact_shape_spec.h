@@ -152,6 +152,17 @@ void visit_smooth(Visitor& visit, double& smooth) {
             .like("30 deg"));
 }
 
+template <class Visitor>
+void visit_spacing(Visitor& visit, std::optional<double>& spacing) {
+  visit(base::field("spacing", spacing,
+                    "greatest distance of the springs that stand for the surface where it touches "
+                    "another one of triangles")
+            .in(base::kLength)
+            .positive()
+            .like("5 mm")
+            .otherwise("a fifth of the side of a square that has a sixth of its area"));
+}
+
 /// As CAD programs write cylinders: some twenty sides.
 inline constexpr double kSmoothAngle = 0.523598775598298873;  // 30°
 
@@ -159,11 +170,13 @@ struct StlShape {
   static constexpr const char* kKey = "stl";
   static constexpr const char* kDoc =
       "surface of triangles from an STL file, text or binary, placed by the marker; it can touch "
-      "planes, spheres, capsules (with their ends) and boxes (with their corners)";
+      "planes, spheres, capsules (with their ends), cylinders (with their rims), boxes (with their "
+      "corners) and other surfaces of triangles";
   SourceLocation where;
   std::string file;
   double unit = 0;  ///< [m]
   double smooth = kSmoothAngle;
+  std::optional<double> spacing;  ///< [m]
   /// Set by the reader of model files; programs may set it in place of `file`.
   std::shared_ptr<const spatial::TriangleList> triangles;
 
@@ -178,6 +191,7 @@ struct StlShape {
               .positive()
               .like("1 mm"));
     visit_smooth(visit, smooth);
+    visit_spacing(visit, spacing);
   }
 };
 
@@ -187,10 +201,12 @@ struct SurfaceShape {
       "outer surface of the mesh of the marker's body (solids and shells), in its undeformed "
       "shape; it moves with the marker and touches what `stl` touches";
   double smooth = kSmoothAngle;
+  std::optional<double> spacing;  ///< [m]
 
   template <class Visitor>
   void fields(Visitor& visit) {
     visit_smooth(visit, smooth);
+    visit_spacing(visit, spacing);
   }
 };
 

@@ -114,6 +114,10 @@ std::array<Vector3d, 6> CurvedFacet::hull() const {
   return out;
 }
 
+Vector3d CurvedFacet::at(const Vector3d& lambda) const {
+  return evaluate(*this, Vector2d(lambda.y(), lambda.z())).x;
+}
+
 CurvedFacet::Place CurvedFacet::nearest(const Vector3d& point) const {
   Place out;
   Vector2d inside;

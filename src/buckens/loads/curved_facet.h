@@ -32,6 +32,9 @@ struct CurvedFacet {
   /// The nearest place to a point.
   Place nearest(const Eigen::Vector3d& point) const;
 
+  /// x(λ).
+  Eigen::Vector3d at(const Eigen::Vector3d& lambda) const;
+
   bool is_flat() const;
   /// Corners and middles of the edges' control polygons: their hull contains the facet.
   std::array<Eigen::Vector3d, 6> hull() const;

@@ -18,6 +18,8 @@ namespace {
 
 // Sine of the angle by which a direction may leave the plane of a planar model, as of loads.
 constexpr double kOutOfShapePlane = 1e-6;
+// Of a surface of triangles: some 70 MB of them.
+constexpr double kMostSprings = 1e6;
 
 class ShapeBuilder {
  public:
@@ -83,22 +85,31 @@ class ShapeBuilder {
                                            "the model from a file",
                                            what_, spec.file));
     }
-    return mesh(*spec.triangles, spec.smooth, fmt::format("\"{}\"", spec.file));
+    return mesh(*spec.triangles, spec, fmt::format("\"{}\"", spec.file));
   }
   ContactShape operator()(const loads::SurfaceShape& spec) const {
-    return mesh(own_surface(), spec.smooth, "its surface");
+    return mesh(own_surface(), spec, "its surface");
   }
 
  private:
-  ContactShape mesh(const spatial::TriangleList& triangles, double smooth,
+  /// @param spec with `smooth` and `spacing`
+  template <class Spec>
+  ContactShape mesh(const spatial::TriangleList& triangles, const Spec& spec,
                     const std::string& of) const {
     if (is_planar_) refuse("meshes have no section; use a `sphere`, a `capsule` or a `box`");
     ContactShape out;
     out.kind = ContactShape::Kind::mesh;
     try {
-      out.mesh = std::make_shared<const loads::ContactMesh>(triangles, smooth);
+      out.mesh = std::make_shared<const loads::ContactMesh>(triangles, spec.smooth,
+                                                            spec.spacing.value_or(0.0));
     } catch (const InputError& error) {
       throw InputError(where_, fmt::format("{}: {}: {}", what_, of, error.text()));
+    }
+    if (spec.spacing && out.mesh->area() > kMostSprings * *spec.spacing * *spec.spacing) {
+      throw InputError(
+          where_, fmt::format("{}: {}: springs at a `spacing` of {:g} m over {:.4g} m² would be "
+                              "more than {:g}; give a greater one",
+                              what_, of, *spec.spacing, out.mesh->area(), kMostSprings));
     }
     out.half = out.mesh->box().min().cwiseAbs().cwiseMax(out.mesh->box().max().cwiseAbs());
     return out;

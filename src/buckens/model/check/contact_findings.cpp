@@ -135,10 +135,9 @@ Found exponent_problem(const loads::ContactForceSpec& spec, const std::string& f
   const auto are = [&](const char* a, const char* b) {
     return (first == a && second == b) || (first == b && second == a);
   };
-  if (!are("plane", "mesh") && !are("box", "cylinder") && !are("cylinder", "cylinder")) {
-    return std::nullopt;
-  }
-  const char* what = are("plane", "mesh") ? "touch with an area" : "share a volume";
+  const bool by_area = are("plane", "mesh") || are("mesh", "mesh");
+  if (!by_area && !are("box", "cylinder") && !are("cylinder", "cylinder")) return std::nullopt;
+  const char* what = by_area ? "touch with an area" : "share a volume";
   return Finding{"exponent",
                  fmt::format("a {} and a {} {}, over which forces grow linearly; remove `exponent`",
                              first, second, what)};
