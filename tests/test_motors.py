@@ -81,6 +81,49 @@ initial: {joints: {shaft: {speed: 50 rad/s}}}
     assert out["shaft.rate"][:50] == pytest.approx(50 - 80 * out["t"][:50], abs=1e-6)
 
 
+def test_a_motor_without_gains_has_its_speed_exactly(sensors):
+    """It starts up at its limit, holds a speed that changes, gives way to a load beyond its limit, and takes it up again."""
+    J, limit, load = 0.05, 3.0, 4.0
+    out = sensors(wheel("""loads:
+  motor: {hinge-motor: {joint: shaft, speed: "10 + 5*sin(8*t) rad/s", torque-limit: 3 N m}}
+  load: {torque: {on: wheel, value: [0, 0, "-4*(t > 1)*(t < 1.1) N m"]}}
+""", "2 s", "1 ms", "10 ms"))
+    t, rate, torque = out["t"], out["shaft.rate"], out["torque"]
+    aim = 10 + 5 * numpy.sin(8 * t)
+    # Up at 60 rad/s² until it has 10 + 5 sin 8t: at 0.233 s.
+    rising = t < 0.22
+    assert rate[rising] == pytest.approx(limit / J * t[rising], abs=1e-9)
+    holds = ((t > 0.25) & (t < 0.99)) | (t > 1.6)
+    assert numpy.abs(rate[holds] - aim[holds]).max() < 1e-9
+    # J times the acceleration that it is told, to the square of the step.
+    assert torque[holds] == pytest.approx(J * 40 * numpy.cos(8 * t[holds]), abs=2e-3)
+    stalls = (t > 1.005) & (t < 1.095)
+    assert torque[stalls] == pytest.approx(limit, abs=1e-12)
+    assert numpy.diff(rate[stalls]) == pytest.approx((limit - load) / J * 0.01, abs=1e-9)
+    assert numpy.abs(torque).max() <= limit
+    assert numpy.abs(out["balance"]).max() < 5e-3
+
+
+def test_a_motor_without_gains_starts_at_its_speed(sensors):
+    """Started with it, from the first step on: the acceleration that the law of time says is there."""
+    out = sensors(wheel("""loads: {motor: {slide-motor: {joint: way, velocity: "0.2 + 3*t m/s", force-limit: 50 N}}}
+initial: {joints: {way: {velocity: 0.2 m/s}}}
+""", "0.2 s", "2 ms", "2 ms").replace("shaft: {revolute: {between: [ground, wheel], axis: [0, 0, 1]}}",
+                                      "way: {prismatic: {between: [ground, wheel], axis: [1, 0, 0]}}")
+                  .replace("shaft: {joint-coordinate: shaft}", "way: {joint-coordinate: way}").replace("spring-torque", "spring-force"))
+    assert out["torque"] == pytest.approx(6.0, abs=1e-9)
+    assert out["way.value"] == pytest.approx(0.2 * out["t"] + 1.5 * out["t"] ** 2, abs=1e-12)
+
+
+def test_stiff_gains_stall_at_their_limit(sensors):
+    """Where the torque leaves its limit depends on 1e-5 of the speed aimed at, and on less with higher gains."""
+    for gain in (1e4, 1e6, 1e9):
+        out = sensors(wheel(f"loads: {{motor: {{hinge-motor: {{joint: shaft, speed: 10, damping: {gain}, torque-limit: 3}}}}}}",
+                            "0.3 s", "1 ms", "10 ms"))
+        assert out["shaft.rate"][:16] == pytest.approx(60 * out["t"][:16], abs=1e-9)
+        assert out["shaft.rate"][-1] == pytest.approx(10, abs=1e-8)
+
+
 def test_characteristics_store_what_they_give(sensors):
     text = """
 buckens: 1
@@ -124,7 +167,10 @@ output: {every: 1 ms, sensors: {a: {joint-coordinate: a}, b: {joint-coordinate: 
     ("hinge-motor: {joint: shaft}", ["does nothing", "`torque`"]),
     ("hinge-motor: {joint: shaft, angle: 1}", ["without `stiffness`"]),
     ("hinge-motor: {joint: shaft, stiffness: 1}", ["needs a target `angle`"]),
-    ("hinge-motor: {joint: shaft, speed: 1}", ["without `damping`"]),
+    ("hinge-motor: {joint: shaft, angle: 1, stiffness: 5, speed: 1}", ["without `damping`"]),
+    ("hinge-motor: {joint: shaft, speed: 1}", ["without `damping`", "`torque-limit`, which is missing", "`prescribed-rotation`"]),
+    ("hinge-motor: {joint: shaft, speed: 1, torque: 2, torque-limit: 5}", ["takes what force that needs", "remove it"]),
+    ("hinge-motor: {joint: shaft, speed: 1, torque-limit: 5, power-limit: 3 W}", ["has a `torque-limit` only"]),
     ("hinge-motor: {joint: shaft, torque: 1, damping: 1}", ["needs a target `speed`"]),
     ("hinge-motor: {joint: shaft, torque: 1, torque-limit: -1}", ["be positive", "torque-limit"]),
     ("slide-motor: {joint: shaft, force: 1}", ["\"shaft\" is a revolute", "no displacement"]),

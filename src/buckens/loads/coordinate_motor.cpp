@@ -55,40 +55,40 @@ namespace {
 
 constexpr int kHolds = 1, kForwards = 2, kBackwards = 3, kOpen = 4;
 
-int slipping(double rate) { return rate > 0.0 ? kForwards : kBackwards; }
+int slipping(double slip) { return slip > 0.0 ? kForwards : kBackwards; }
 
 }  // namespace
 
-void CoordinateBrake::start_states(const Sight& sight, double* states) const {
-  const double rate = sight.coordinate.rate;
-  states[0] = rate == 0.0 ? kHolds : slipping(rate);
+void RateHold::start_states(const Sight& sight, double* states) const {
+  const double slip = sight.coordinate.rate - aimed(sight);
+  states[0] = slip == 0.0 ? kHolds : slipping(slip);
 }
 
-RigidRow CoordinateBrake::row(const Sight& sight) const {
-  const double rate = sight.coordinate.rate;
-  const double most = std::max(0.0, bound_.value(sight.t, sight.signals));
+RigidRow RateHold::row(const Sight& sight) const {
+  const double slip = sight.coordinate.rate - aimed(sight);
+  const double bound = std::max(0.0, most(sight));
   const int regime = sight.stand.regime == 0 ? kHolds : sight.stand.regime;
   RigidRow out;
   out.next = sight.stand;
-  out.slip = rate;
+  out.slip = slip;
   out.is_closed = regime == kHolds;
-  if (most == 0.0) {
+  if (bound == 0.0) {
     if (regime != kOpen) out.next = {kOpen, 0.0};
     return out;
   }
   if (out.is_closed) {
-    if (std::abs(sight.stand.force) > most) {
-      out.next = {slipping(-sight.stand.force), std::copysign(most, sight.stand.force)};
+    if (std::abs(sight.stand.force) > bound) {
+      out.next = {slipping(-sight.stand.force), std::copysign(bound, sight.stand.force)};
     }
     return out;
   }
   if (regime == kOpen) {
-    out.next = {slipping(rate), 0.0};
+    out.next = {slipping(slip), 0.0};
     return out;
   }
   const double direction = regime == kForwards ? 1.0 : -1.0;
-  out.given = -direction * most;
-  if (direction * rate < 0.0) out.next = {kHolds, out.given};
+  out.given = -direction * bound;
+  if (direction * slip < 0.0) out.next = {kHolds, out.given};
   return out;
 }
 

@@ -40,21 +40,53 @@ class CoordinateMotor final : public CoordinateLaw {
   MotorData data_;
 };
 
-/// Brake on a joint coordinate: a rigid row whose force is bounded by a law of time and signals.
-/// Regimes: 1 holds; 2 and 3 slip forwards and backwards; 4 is open, its bound zero.
-class CoordinateBrake final : public RigidLaw {
+/// Holds the rate of a joint coordinate as far as its force reaches: a rigid row with a bounded
+/// multiplier, which stalls exactly. Regimes: 1 holds; 2 and 3 slip forwards and backwards against
+/// the rate that it aims at; 4 is open, its bound zero.
+class RateHold : public RigidLaw {
  public:
-  /// @param bound [N m] or [N]; below zero counts as zero
+  /// Holds where it has its rate, slips elsewhere.
+  void start_states(const Sight& sight, double* states) const final;
+
+ protected:
+  /// Most that it resists with [N m] or [N]; below zero counts as zero.
+  virtual double most(const Sight& sight) const = 0;
+  /// Rate that it holds [rad/s] or [m/s].
+  virtual double aimed(const Sight& /*sight*/) const { return 0.0; }
+
+ private:
+  RigidRow row(const Sight& sight) const final;
+};
+
+/// Brake on a joint coordinate, its bound a law of time and signals.
+class CoordinateBrake final : public RateHold {
+ public:
   explicit CoordinateBrake(base::SignalLaw bound) : bound_(std::move(bound)) {}
 
   bool uses_signals() const override { return bound_.uses_signals(); }
-  /// Holds at rest, slips where it moves.
-  void start_states(const Sight& sight, double* states) const override;
 
  private:
-  RigidRow row(const Sight& sight) const override;
+  double most(const Sight& sight) const override { return bound_.value(sight.t, sight.signals); }
 
   base::SignalLaw bound_;
+};
+
+/// Motor that has its speed exactly, whatever force that takes, up to a limit.
+class CoordinateServo final : public RateHold {
+ public:
+  /// @param speed [rad/s] or [m/s], @param limit [N m] or [N]
+  CoordinateServo(base::SignalLaw speed, double limit) : speed_(std::move(speed)), limit_(limit) {}
+
+  bool uses_signals() const override { return speed_.uses_signals(); }
+  bool is_source() const override { return true; }
+  double aimed_acceleration(double t) const override { return speed_.rate(t); }
+
+ private:
+  double most(const Sight& /*sight*/) const override { return limit_; }
+  double aimed(const Sight& sight) const override { return speed_.value(sight.t, sight.signals); }
+
+  base::SignalLaw speed_;
+  double limit_;
 };
 
 }  // namespace buckens::loads

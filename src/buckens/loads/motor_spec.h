@@ -20,6 +20,9 @@ struct MotorSpec : JointLaw {
   std::optional<double> limit;              ///< [N m] or [N]
   std::optional<double> power;              ///< [W]
 
+  /// Without gains it has its speed exactly.
+  bool is_exact() const { return speed && stiffness == 0.0 && damping == 0.0; }
+
   template <class Visitor>
   void motor_fields(Visitor& visit, bool turns) {
     joint_fields(visit, turns);
@@ -38,7 +41,9 @@ struct MotorSpec : JointLaw {
               .like(turns ? "\"0.5*sin(2*t) rad\"" : "\"50*sin(2*t) mm\"")
               .otherwise("none"));
     visit(
-        base::field(turns ? "speed" : "velocity", speed, "target of `damping`; by time and signals")
+        base::field(turns ? "speed" : "velocity", speed,
+                    "target of `damping`; without gains, held exactly as far as the limit admits; "
+                    "by time and signals")
             .in(turns ? base::kAngularVelocity : base::kVelocity)
             .like(turns ? "1500 rpm" : "0.2 m/s")
             .otherwise(turns ? "the rate of a law of time for `angle`, else 0"

@@ -18,7 +18,7 @@ Action RigidLaw::respond(const Sight& sight) const {
   out.along_coordinate = force;
   out.regime = sight.stand.regime;
   out.active_power = force * sight.coordinate.rate;
-  out.dissipation = -out.active_power;
+  if (!is_source()) out.dissipation = -out.active_power;
   return out;
 }
 

@@ -35,6 +35,10 @@ class RigidLaw : public ForceElement {
   /// Share of the speed of approach with which it is left again.
   /// @param approach > 0 [m/s] or [rad/s]
   virtual double restitution(double /*approach*/) const { return 0.0; }
+  /// A motor: its power comes from outside.
+  virtual bool is_source() const { return false; }
+  /// Of the coordinate while the row is closed, as far as a law of time says [m/s²] or [rad/s²].
+  virtual double aimed_acceleration(double /*t*/) const { return 0.0; }
 
  protected:
   /// What the row leaves open and which stand follows, without the force itself.

@@ -36,7 +36,7 @@ void HeldLaws::hold_reversed(const std::vector<int>& before,
   for (const Law& law : laws_) {
     if (before[law.regime] * tangents.regimes[law.regime] != -1) continue;
     const loads::UnlimitedForce force = look(law, motions, t, around);
-    if (!(force.stiffness > 0.0)) continue;
+    if (!(force.stiffness > 0.0 || force.damping > 0.0)) continue;
     const auto row = static_cast<std::size_t>(law.soft);
     tangents.stiffness[row] = force.stiffness;
     tangents.damping[row] = force.damping;

@@ -10,6 +10,7 @@
 #include "buckens/dynamics/forces.h"
 #include "buckens/dynamics/frame_equation.h"
 #include "buckens/linalg/conjugate_gradients.h"
+#include "buckens/loads/rigid_law.h"
 #include "buckens/stepping/rigid_rows.h"
 
 namespace buckens::analysis {
@@ -113,7 +114,8 @@ class Accelerations {
       if (!soft.is_closed[k]) continue;
       const model::Load& load = model_.load_of_rigid_row(soft.rigid[k]);
       rows_.push_back(soft.rows[k]);
-      bias_.push_back(bias_of(load, motions));
+      const auto& law = static_cast<const loads::RigidLaw&>(*load.element);
+      bias_.push_back(bias_of(load, motions) - law.aimed_acceleration(state_.t));
       closed_.push_back(load.first_state + 1);
     }
   }

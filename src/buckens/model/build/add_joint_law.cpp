@@ -129,6 +129,9 @@ class JointLawBuilder {
     return std::make_shared<loads::CoordinateSpring>(kind.stiffness, kind.damping, free);
   }
   static Element make(const loads::MotorSpec& kind, const Coordinate&) {
+    if (kind.is_exact()) {
+      return std::make_shared<loads::CoordinateServo>(*kind.speed, kind.limit.value_or(HUGE_VAL));
+    }
     loads::MotorData data;
     data.force = kind.force;
     data.position = kind.position;

@@ -135,6 +135,31 @@ Found friction_problem(const loads::HingeFrictionSpec& spec) {
                                      : "a `preload` in place of `static`")};
 }
 
+/// A motor that has its speed exactly has a limit, and nothing beside it.
+Found exact_motor_problem(const loads::MotorSpec& spec, bool turns) {
+  const char* speed = turns ? "speed" : "velocity";
+  const char* limit = turns ? "torque-limit" : "force-limit";
+  if (!spec.limit) {
+    return Finding{
+        speed, fmt::format("without `damping`, the gain on its error, the {} is held exactly, up "
+                           "to a `{}`, which is missing; give one of them, or use `prescribed-{}`",
+                           speed, limit, turns ? "rotation" : "translation")};
+  }
+  if (spec.force) {
+    return Finding{turns ? "torque" : "force",
+                   fmt::format("a motor that holds its {} exactly takes what force that needs; "
+                               "remove it, or give a `damping`",
+                               speed)};
+  }
+  if (spec.power) {
+    return Finding{"power-limit",
+                   fmt::format("a motor that holds its {} exactly has a `{}` only; remove it, or "
+                               "give a `damping`",
+                               speed, limit)};
+  }
+  return std::nullopt;
+}
+
 /// A gain aims at something, and a motor does something.
 Found motor_problem(const loads::MotorSpec& spec, bool turns) {
   const char* position = turns ? "angle" : "displacement";
@@ -151,6 +176,7 @@ Found motor_problem(const loads::MotorSpec& spec, bool turns) {
         "stiffness",
         fmt::format("a gain on the {0} needs a target `{0}`, for example {0}: 0", position)};
   }
+  if (spec.is_exact()) return exact_motor_problem(spec, turns);
   if (spec.speed && spec.damping == 0.0) {
     return Finding{
         speed,
