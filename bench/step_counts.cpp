@@ -167,7 +167,7 @@ json time_ratios() {
   out["64 over 16 frames of a beam in the plane"] =
       ratio_of_times(buckens::bench::start(planar_beam_pendulum(64), kStep),
                      buckens::bench::start(planar_beam_pendulum(16), kStep));
-  out["friction in all joints over none, flexible slider-crank"] =
+  out["friction in all joints over none, flexible slider-crank with 8 beam elements"] =
       ratio_of_times(buckens::bench::start(slider_crank(friction_in_all_joints()), kStep),
                      buckens::bench::start(slider_crank(""), kStep));
   const auto beam = [](bool side_by_side) {

@@ -66,8 +66,9 @@ def test_friction_in_all_joints_costs_few_iterations(summary):
     rubbed = summary(CRANK.replace("LAWS", FRICTION), "rubbed")
     assert rubbed["step_control"]["failed"] == 0
     assert rubbed["steps"] == without["steps"] == 840
-    # The goal of friction in a flexible mechanism: at most 1.3 times the work of a step.
-    assert rubbed["newton_iterations"]["total"] <= 1.3 * without["newton_iterations"]["total"]
+    # The goal of friction in a flexible mechanism: at most 1.3 times the work of a step. Iterations are to be
+    # a small part of that: evaluations and small matrices of friction are the rest.
+    assert rubbed["newton_iterations"]["total"] <= 1.1 * without["newton_iterations"]["total"]
 
 
 @pytest.mark.parametrize("angle", ["60*t rad", "60*(t - 0.01*(1 - exp(-t/0.01))) rad"])

@@ -48,6 +48,25 @@ spatial::Wrench reaction_of(const model::Model& model, std::size_t load,
   return out;
 }
 
+/// What a load may see besides motions and the reaction of its joint.
+void tell_rest(const model::Model& model, std::size_t load, const Circumstances& around,
+               loads::Sight& sight) {
+  const model::Load& own = model.loads[load];
+  if (around.memory != nullptr && around.memory->laws.size() > 0) {
+    sight.states = around.memory->laws.data() + own.first_state;
+  }
+  if (own.rigid_row >= 0) {
+    sight.stand = stand_of(own, around, sight.states);
+    const auto* friction = dynamic_cast<const loads::ContactFriction*>(own.element.get());
+    if (friction != nullptr) sight.reaction = reaction_of(model, load, around, sight, *friction);
+  }
+  if (around.signals != nullptr) {
+    sight.signals = *around.signals;
+  } else if (around.memory != nullptr) {
+    sight.signals = around.memory->signals;
+  }
+}
+
 }  // namespace
 
 Circumstances circumstances_of(const model::State& state) {
@@ -106,9 +125,8 @@ loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t
   const joints::JointCoordinate& law = model.coordinates[coordinate].law;
   loads::CoordinateMotion out;
   out.J = law.derivatives(first, second);
-  Eigen::Matrix<double, 12, 1> V;
-  V << first.w, first.v, second.w, second.v;
-  out.rate = out.J.dot(V);
+  out.rate = out.J.segment<3>(0).dot(first.w) + out.J.segment<3>(3).dot(first.v) +
+             out.J.segment<3>(6).dot(second.w) + out.J.segment<3>(9).dot(second.v);
   const joints::CountedValue now = counted_coordinate(model, coordinate, memory, first, second);
   out.value = now.value();
   if (memory == nullptr || memory->coordinates.empty()) return out;
@@ -135,19 +153,20 @@ loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
                                  around.memory, *around.lambda, first, second)
                          .on_second;
   }
-  if (around.memory != nullptr && around.memory->laws.size() > 0) {
-    sight.states = around.memory->laws.data() + own.first_state;
+  tell_rest(model, load, around, sight);
+  return sight;
+}
+
+loads::Sight sight_at_joint(const model::Model& model, std::size_t load, double t,
+                            const Circumstances& around, const spatial::MarkerMotion& first,
+                            const spatial::MarkerMotion& second, const spatial::Wrench& reaction) {
+  const model::Load& own = model.loads[load];
+  loads::Sight sight{t, first, second, {}, reaction, nullptr, {}};
+  if (own.coordinate >= 0) {
+    sight.coordinate = coordinate_motion(model, static_cast<std::size_t>(own.coordinate),
+                                         around.memory, first, second);
   }
-  if (own.rigid_row >= 0) {
-    sight.stand = stand_of(own, around, sight.states);
-    const auto* friction = dynamic_cast<const loads::ContactFriction*>(own.element.get());
-    if (friction != nullptr) sight.reaction = reaction_of(model, load, around, sight, *friction);
-  }
-  if (around.signals != nullptr) {
-    sight.signals = *around.signals;
-  } else if (around.memory != nullptr) {
-    sight.signals = around.memory->signals;
-  }
+  tell_rest(model, load, around, sight);
   return sight;
 }
 

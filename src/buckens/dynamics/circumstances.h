@@ -61,6 +61,11 @@ loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
                       const Circumstances& around, const spatial::MarkerMotion& first,
                       const spatial::MarkerMotion& second, const Travel* travel = nullptr);
 
+/// The same for a law on a joint whose reaction on the second marker is known.
+loads::Sight sight_at_joint(const model::Model& model, std::size_t load, double t,
+                            const Circumstances& around, const spatial::MarkerMotion& first,
+                            const spatial::MarkerMotion& second, const spatial::Wrench& reaction);
+
 /// The effect of one load: by its law, or by the values given for it.
 /// @param load index into Model::loads, @param travel of a law on a slider's coordinate
 loads::Action action_of(const model::Model& model, std::size_t load, double t,

@@ -20,4 +20,16 @@ decltype(auto) citing(const model::Joint& joint, double t, Work&& work) {
   }
 }
 
+/// The same for the law of a load, whose name is enough.
+template <class Work>
+decltype(auto) citing(const model::Load& load, Work&& work) {
+  try {
+    return work();
+  } catch (const NumericalError& error) {
+    const char* what = load.is_among_joints ? "joint" : "load";
+    throw NumericalError(error.where(),
+                         fmt::format("{} \"{}\": {}", what, load.name, error.text()));
+  }
+}
+
 }  // namespace buckens::dynamics

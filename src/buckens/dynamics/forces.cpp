@@ -3,13 +3,15 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
-#include "buckens/base/errors.h"
+#include "buckens/dynamics/citing.h"
 #include "buckens/dynamics/contact_groups.h"
 #include "buckens/dynamics/travel.h"
 
 namespace buckens::dynamics {
+
+bool has_regimes(const model::Load& load) {
+  return load.coordinate >= 0 || load.element->num_states() > 0;
+}
 
 void add_wrench(const model::Model& model, const model::MarkerId& id,
                 const body::MarkerKinematics& kinematics, const spatial::Wrench& wrench,
@@ -40,18 +42,8 @@ void add_row(const BodyRow& row, double multiplier, Forces& out) {
   }
 }
 
-[[noreturn]] void fail_with_name(const model::Load& load, const NumericalError& error) {
-  const char* what = load.is_among_joints ? "joint" : "load";
-  throw NumericalError(error.where(), fmt::format("{} \"{}\": {}", what, load.name, error.text()));
-}
-
 // Of differences for tangents: far above rounding, and formulas are smooth over less.
 constexpr double kShift = 1e-6;
-
-/// Whether a load has more than one tangent.
-bool has_regimes(const model::Load& load) {
-  return load.coordinate >= 0 || load.element->num_states() > 0;
-}
 
 /// With the values of signals, unless these are known.
 Circumstances with_signals(const model::Model& model, const std::vector<BodyMotion>& motions,
@@ -124,24 +116,29 @@ void Forces::reset(const model::Model& model) {
   rigid.clear();
 }
 
+void Forces::leave_place(const model::Load& load) {
+  if (has_regimes(load)) regimes.push_back(0);
+  if (load.rigid_row >= 0) rigid.emplace_back();
+}
+
 void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                      Forces& out, double load_factor) {
   evaluate_forces(model, motions, t, Circumstances(), out, load_factor);
 }
 
 void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
-                     const Circumstances& given, Forces& out, double load_factor) {
+                     const Circumstances& given, Forces& out, double load_factor,
+                     const std::vector<char>* at_joints) {
   out.reset(model);
   const Circumstances around = with_signals(model, motions, t, given, out.signals);
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const model::Load& load = model.loads[k];
-    const LoadEnds ends = ends_of(model, load, motions, around.memory);
-    loads::Action action;
-    try {
-      action = action_of(model, k, t, around, ends);
-    } catch (const NumericalError& error) {
-      fail_with_name(load, error);
+    if (at_joints != nullptr && (*at_joints)[k] != 0) {
+      out.leave_place(load);
+      continue;
     }
+    const LoadEnds ends = ends_of(model, load, motions, around.memory);
+    loads::Action action = citing(load, [&] { return action_of(model, k, t, around, ends); });
     if (load_factor != 1.0 && load.element->is_applied()) {
       for (spatial::Wrench* wrench : {&action.on_first, &action.on_second}) {
         wrench->torque *= load_factor;
@@ -236,7 +233,8 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
 }
 
 void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
-                        const Circumstances& given, SoftRows& out) {
+                        const Circumstances& given, SoftRows& out, const ReactionSlopes* followers,
+                        std::vector<ReactionSlope>* slopes) {
   const Circumstances around = with_signals(model, motions, t, given, out.signals);
   out.regimes.clear();
   clear_rows(out.rows);
@@ -244,6 +242,7 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
   out.damping.clear();
   out.rigid.clear();
   out.is_closed.clear();
+  if (slopes != nullptr) slopes->clear();
   std::vector<loads::SoftRow>& rows = out.of_one;
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const model::Load& load = model.loads[k];
@@ -252,14 +251,16 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
     rows.clear();
     const loads::Sight sight = sight_of(model, k, t, around, ends);
     const bool is_off = around.memory != nullptr && around.memory->is_off(k);
-    try {
+    citing(load, [&] {
       load.element->append_tangent(sight, rows);
       if (is_off) give_nothing(rows);
       if (has_regimes(load)) {
         out.regimes.push_back(is_off ? 0 : load.element->respond(sight).regime);
       }
-    } catch (const NumericalError& error) {
-      fail_with_name(load, error);
+    });
+    if (followers != nullptr && !is_off) {
+      followers->append(k, static_cast<int>(out.rows.size()), sight, around, ends.travels(),
+                        *slopes);
     }
     if (!is_off && load.coordinate >= 0 && load.element->uses_signals()) {
       add_slopes_of_signals(load, motions, around, {model, sight, out});

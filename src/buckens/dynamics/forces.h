@@ -5,6 +5,7 @@
 
 #include "buckens/dynamics/circumstances.h"
 #include "buckens/dynamics/constraints.h"
+#include "buckens/dynamics/reaction_slopes.h"
 #include "buckens/dynamics/signals.h"
 
 namespace buckens::dynamics {
@@ -24,15 +25,22 @@ struct Forces {
   std::vector<spatial::Wrench> on_others;  ///< scratch
 
   void reset(const model::Model& model);
+  /// Keeps the place of a load that is evaluated elsewhere.
+  void leave_place(const model::Load& load);
 };
+
+/// Whether a load has more than one tangent, and so a place in Forces::regimes.
+bool has_regimes(const model::Load& load);
 
 /// Gravity, loads and springs. Uniform gravity acts on frames only: its nodal load is in the span
 /// of P, which the sieve removes.
 /// @param around what force laws use besides the motions
 /// @param load_factor multiplies applied forces and torques, neither gravity nor springs
+/// @param at_joints JointSet::laws(): of loads that are left to a JointSet, which adds to `out`
 /// @throws NumericalError naming the load whose law fails
 void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
-                     const Circumstances& around, Forces& out, double load_factor = 1.0);
+                     const Circumstances& around, Forces& out, double load_factor = 1.0,
+                     const std::vector<char>* at_joints = nullptr);
 /// The same without circumstances.
 void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                      Forces& out, double load_factor = 1.0);
@@ -57,8 +65,12 @@ struct SoftRows {
   std::vector<loads::TwistRow> of_others;
   SignalValues signals, shifted;  ///< at the instant; scratch
 };
+/// @param followers null, or forces that grow with reactions: `slopes` says how, in the order of
+/// the rows
 void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
-                        const Circumstances& around, SoftRows& out);
+                        const Circumstances& around, SoftRows& out,
+                        const ReactionSlopes* followers = nullptr,
+                        std::vector<ReactionSlope>* slopes = nullptr);
 /// The same without circumstances, at t = 0.
 void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions,
                         SoftRows& out);

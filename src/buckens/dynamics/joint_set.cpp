@@ -2,7 +2,6 @@
 #include "buckens/dynamics/joint_set.h"
 
 #include "buckens/base/errors.h"
-#include "buckens/dynamics/circumstances.h"
 #include "buckens/dynamics/citing.h"
 #include "buckens/dynamics/travel.h"
 #include "buckens/spatial/rotation.h"
@@ -80,7 +79,7 @@ JointSet::JointSet(const model::Model& model)
     const Joint& own = joints_.emplace_back(
         Joint{end_of(joint.first), end_of(joint.second), joint.first_row,
               static_cast<int>(joint.rows.size()), rows_.size(), coupled_.size(),
-              joint.coupled.size(), joint.track ? &joint : nullptr});
+              joint.coupled.size(), 0, 0, joint.track ? &joint : nullptr});
     for (const model::CoupledCoordinate& coupled : joint.coupled) {
       const auto index = static_cast<std::size_t>(coupled.coordinate);
       const model::Joint& owner =
@@ -99,6 +98,7 @@ JointSet::JointSet(const model::Model& model)
       state += row.num_states();
     }
   }
+  take_laws();
 }
 
 JointSet::Motion JointSet::motion_of(const End& end, const std::vector<BodyMotion>& motions) {
@@ -151,9 +151,9 @@ void JointSet::add_wrench(const End& end, const Motion& motion, const Wrench& wr
 
 void JointSet::derive(const End& end, const Motion& motion, const Wrench& wrench, BodyRow& out) {
   out.body = end.body;
-  if (end.body == model::kGround) return;
   out.translation_row = end.translation_row;
   out.rotation_row = end.rotation_row;
+  if (end.body == model::kGround) return;
   // A scalar with a derivative is the work of the wrench of that size on the marker.
   const Vector3d force = against(motion.R_WB, wrench.force);
   const Vector3d torque = against(motion.R_WB, wrench.torque);
@@ -229,15 +229,67 @@ void JointSet::derive_coupler(const Joint& joint, const std::vector<BodyMotion>&
   }
 }
 
+JointWrenches JointSet::evaluate_rows(std::size_t index, const Motion& F, const Motion& M, double t,
+                                      const double* states, const linalg::Vector* lambda,
+                                      JointResiduals& out, Wrench* units) const {
+  const Joint& joint = joints_[index];
+  const Vector3d r = M.p - F.p, r_dot = M.v - F.v, w = F.w - M.w;
+  JointWrenches wrenches;
+  Wrench& on_first = wrenches.on_first;
+  Wrench& on_second = wrenches.on_second;
+  for (int k = 0; k < joint.num_rows; ++k) {
+    const Row& row = rows_[joint.rows + static_cast<std::size_t>(k)];
+    const int at = joint.first_row + k;
+    const double multiplier = lambda != nullptr ? (*lambda)[at] : 0.0;
+    if (row.kind == Kind::point) {
+      out.g[at] = row.b.dot(r);
+      out.g_dot[at] = row.b.dot(r_dot);
+      out.g_t[at] = 0.0;
+      on_first.force -= multiplier * row.b;
+      on_second.force += multiplier * row.b;
+      if (units != nullptr) units[k] = {Vector3d::Zero(), row.b};
+    } else if (row.kind == Kind::direction) {
+      const Vector3d b = F.axes * row.b;
+      const Vector3d c = M.axes * row.c;
+      const Vector3d b_x_c = b.cross(c);
+      out.g[at] = b.dot(c);
+      out.g_dot[at] = b_x_c.dot(w);
+      out.g_t[at] = 0.0;
+      on_first.torque += multiplier * b_x_c;
+      on_second.torque -= multiplier * b_x_c;
+      if (units != nullptr) units[k] = {-b_x_c, Vector3d::Zero()};
+    } else {
+      const joints::RowValue value =
+          value_of(model_.joints[index], *row.row, F.marker(joint.first), M.marker(joint.second), t,
+                   states != nullptr ? states + row.state : nullptr);
+      const auto& J = value.J;
+      out.g[at] = value.g;
+      out.g_t[at] = value.g_t;
+      out.g_dot[at] = value.g_t + J.segment<3>(0).dot(F.w) + J.segment<3>(3).dot(F.v) +
+                      J.segment<3>(6).dot(M.w) + J.segment<3>(9).dot(M.v);
+      on_first +=
+          {multiplier * J.segment<3>(0).transpose(), multiplier * J.segment<3>(3).transpose()};
+      on_second +=
+          {multiplier * J.segment<3>(6).transpose(), multiplier * J.segment<3>(9).transpose()};
+      if (units != nullptr) units[k] = {J.segment<3>(6).transpose(), J.segment<3>(9).transpose()};
+    }
+  }
+  return wrenches;
+}
+
 void JointSet::evaluate(const std::vector<BodyMotion>& motions, double t,
                         const model::RowMemory* memory, JointResiduals& out,
-                        const linalg::Vector* lambda, Forces* forces) const {
+                        const linalg::Vector* lambda, Forces* forces, const Laws* with) const {
   const double* const states =
       memory != nullptr && memory->rows.size() > 0 ? memory->rows.data() : nullptr;
   for (linalg::Vector* values : {&out.g, &out.g_dot, &out.g_t}) values->resize(num_rows_);
+  if (with != nullptr && with->slopes != nullptr) with->slopes->clear();
+  std::array<Wrench, kMostRows> units;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const Joint& joint = joints_[j];
-    if (has_let_go(model_, j, memory, out)) continue;
+    const bool has_laws = with != nullptr && joint.num_laws > 0;
+    const bool is_released = has_let_go(model_, j, memory, out);
+    if (is_released && !has_laws) continue;
     if (joint.num_coupled > 0) {
       evaluate_coupler(joint, motions, memory, out, lambda, forces);
       continue;
@@ -248,45 +300,16 @@ void JointSet::evaluate(const std::vector<BodyMotion>& motions, double t,
     }
     const Motion F = motion_of(joint.first, motions);
     const Motion M = motion_of(joint.second, motions);
-    const Vector3d r = M.p - F.p, r_dot = M.v - F.v, w = F.w - M.w;
-    Wrench on_first, on_second;
-    for (int k = 0; k < joint.num_rows; ++k) {
-      const Row& row = rows_[joint.rows + static_cast<std::size_t>(k)];
-      const int at = joint.first_row + k;
-      const double multiplier = lambda != nullptr ? (*lambda)[at] : 0.0;
-      if (row.kind == Kind::point) {
-        out.g[at] = row.b.dot(r);
-        out.g_dot[at] = row.b.dot(r_dot);
-        out.g_t[at] = 0.0;
-        on_first.force -= multiplier * row.b;
-        on_second.force += multiplier * row.b;
-      } else if (row.kind == Kind::direction) {
-        const Vector3d b = F.axes * row.b;
-        const Vector3d c = M.axes * row.c;
-        const Vector3d b_x_c = b.cross(c);
-        out.g[at] = b.dot(c);
-        out.g_dot[at] = b_x_c.dot(w);
-        out.g_t[at] = 0.0;
-        on_first.torque += multiplier * b_x_c;
-        on_second.torque -= multiplier * b_x_c;
-      } else {
-        const joints::RowValue value =
-            value_of(model_.joints[j], *row.row, F.marker(joint.first), M.marker(joint.second), t,
-                     states != nullptr ? states + row.state : nullptr);
-        const auto& J = value.J;
-        out.g[at] = value.g;
-        out.g_t[at] = value.g_t;
-        out.g_dot[at] = value.g_t + J.segment<3>(0).dot(F.w) + J.segment<3>(3).dot(F.v) +
-                        J.segment<3>(6).dot(M.w) + J.segment<3>(9).dot(M.v);
-        on_first +=
-            {multiplier * J.segment<3>(0).transpose(), multiplier * J.segment<3>(3).transpose()};
-        on_second +=
-            {multiplier * J.segment<3>(6).transpose(), multiplier * J.segment<3>(9).transpose()};
-      }
-    }
+    JointWrenches wrenches;
+    Wrench* const filled = has_laws && with->slopes != nullptr ? units.data() : nullptr;
+    if (!is_released) wrenches = evaluate_rows(j, F, M, t, states, lambda, out, filled);
     if (forces == nullptr) continue;
-    add_wrench(joint.first, F, on_first, *forces);
-    add_wrench(joint.second, M, on_second, *forces);
+    if (has_laws) {
+      const Markers markers{F.marker(joint.first), M.marker(joint.second)};
+      act(joint, markers, t, *with, is_released ? nullptr : filled, wrenches, *forces);
+    }
+    add_wrench(joint.first, F, wrenches.on_first, *forces);
+    add_wrench(joint.second, M, wrenches.on_second, *forces);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "buckens/dynamics/circumstances.h"
 #include "buckens/dynamics/constraints.h"
 #include "buckens/dynamics/forces.h"
 
@@ -21,6 +22,9 @@ struct JointResiduals {
 /// add_joint_forces(), which use the model. Rows that slide or follow a law of time are left to
 /// their own code; coincident points and perpendicular directions, which nearly all joints consist
 /// of, are coded explicitly.
+///
+/// Laws on a joint, friction above all, look at the same two markers and at what the joint carries.
+/// They are evaluated with it.
 class JointSet {
  public:
   static constexpr std::size_t kMostRows = 6;  ///< of one joint
@@ -32,14 +36,27 @@ class JointSet {
   int first_row(std::size_t joint) const { return joints_[joint].first_row; }
   int num_rows(std::size_t joint) const { return joints_[joint].num_rows; }
 
+  /// What laws on joints are evaluated with.
+  struct Laws {
+    const Circumstances& around;  ///< with the memory and λ of the joints
+    /// Not null: how their forces grow with the multipliers, in the order of the soft rows.
+    std::vector<ReactionSlope>* slopes = nullptr;
+  };
+
   /// Residuals of all rows. With multipliers, the forces Gᵀλ are added: the rows of a joint act on
   /// its two markers together, and a marker's wrench goes to its body once. Allocates nothing once
   /// `out` has its size.
   /// @param memory turns and states as at the start of the step, null: none yet
   /// @param lambda,forces both or neither
+  /// @param with null: without the laws()
   void evaluate(const std::vector<BodyMotion>& motions, double t, const model::RowMemory* memory,
                 JointResiduals& out, const linalg::Vector* lambda = nullptr,
-                Forces* forces = nullptr) const;
+                Forces* forces = nullptr, const Laws* with = nullptr) const;
+  /// Of each load of the model, whether it is a law that is evaluated with its joint.
+  const std::vector<char>& laws() const { return is_law_; }
+
+  /// Whether a soft row is that of one of these laws.
+  bool has_soft_row(int soft) const { return is_soft_row_[static_cast<std::size_t>(soft)] != 0; }
 
   /// Derivatives of the rows of one joint, num_rows() of them; zero where it has let go.
   void derivatives(std::size_t joint, const std::vector<BodyMotion>& motions, double t,
@@ -67,11 +84,18 @@ class JointSet {
     std::size_t coordinate;
     const joints::CoordinateTerm* term;
   };
+  struct Law {
+    std::size_t load;
+    int regime;                              // its place in Forces::regimes, −1: none
+    int soft;                                // its first soft row
+    const loads::ReactionFollower* follows;  // null: not the reaction
+  };
   struct Joint {
     End first, second;
     int first_row, num_rows;
     std::size_t rows;                  // first of them in rows_
     std::size_t coupled, num_coupled;  // of a coupler in coupled_
+    std::size_t laws, num_laws;        // in laws_
     const model::Joint* slider;        // on a beam, null: another
   };
   struct Motion;
@@ -81,6 +105,21 @@ class JointSet {
                          Forces& out);
   static void derive(const End& end, const Motion& motion, const spatial::Wrench& wrench,
                      BodyRow& out);
+
+  void take_laws();
+  /// Residuals of a joint of two markers. @return what its multipliers do
+  /// @param units null, or room for what unit multipliers do to the second marker
+  JointWrenches evaluate_rows(std::size_t joint, const Motion& F, const Motion& M, double t,
+                              const double* states, const linalg::Vector* lambda,
+                              JointResiduals& out, spatial::Wrench* units) const;
+  struct Markers {
+    spatial::MarkerMotion first, second;
+  };
+  /// Adds what the laws of a joint do.
+  void act(const Joint& joint, const Markers& markers, double t, const Laws& with,
+           const spatial::Wrench* units, JointWrenches& wrenches, Forces& forces) const;
+  static void append_slopes(const Joint& joint, const Law& law, const loads::Sight& sight,
+                            const spatial::Wrench* units, std::vector<ReactionSlope>& out);
 
   void evaluate_coupler(const Joint& joint, const std::vector<BodyMotion>& motions,
                         const model::RowMemory* memory, JointResiduals& out,
@@ -97,6 +136,8 @@ class JointSet {
   std::vector<Joint> joints_;
   std::vector<Row> rows_;
   std::vector<Coupled> coupled_;
+  std::vector<Law> laws_;
+  std::vector<char> is_law_, is_soft_row_;
   int num_rows_ = 0;
 };
 

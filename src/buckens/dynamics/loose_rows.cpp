@@ -85,7 +85,7 @@ void MultiplierCondensation::set_loose_blocks() {
       }
     }
     for (int k = 0; k < block.count; ++k) {
-      S(k, k) += soft_compliance_[static_cast<std::size_t>(block.first_row + k - first_soft)];
+      S(k, k) += soft_compliance_[static_cast<std::size_t>(block.rows[0] + k - first_soft)];
     }
     invert(S);
   }
@@ -130,8 +130,8 @@ void MultiplierCondensation::precondition(const Vector& x, Vector& y, Slopes slo
   }
   for (std::size_t n = num_direct_blocks_; n < force_.blocks().size(); ++n) {
     const RowBlock& block = force_.blocks()[n];
-    y.segment(block.first_row, block.count).noalias() =
-        loose_inverse_[n - num_direct_blocks_] * x.segment(block.first_row, block.count);
+    y.segment(block.rows[0], block.count).noalias() =
+        loose_inverse_[n - num_direct_blocks_] * x.segment(block.rows[0], block.count);
   }
 }
 

@@ -14,7 +14,7 @@ using Images = std::array<Vector6, RowBlocks::kMostRows>;
 /// The blocks that are factorised come first.
 std::size_t num_blocks_before(const RowBlocks& rows, int end) {
   std::size_t k = 0;
-  while (k < rows.blocks().size() && rows.blocks()[k].first_row < end) ++k;
+  while (k < rows.blocks().size() && rows.blocks()[k].rows[0] < end) ++k;
   return k;
 }
 
@@ -22,6 +22,16 @@ std::vector<int> sizes_of(const RowBlocks& rows, std::size_t count) {
   std::vector<int> sizes;
   for (std::size_t k = 0; k < count; ++k) sizes.push_back(rows.blocks()[k].count);
   return sizes;
+}
+
+/// The rows of these blocks one after the other.
+std::vector<int> rows_of(const RowBlocks& rows, std::size_t count) {
+  std::vector<int> out;
+  for (std::size_t k = 0; k < count; ++k) {
+    const RowBlock& block = rows.blocks()[k];
+    out.insert(out.end(), block.rows.begin(), block.rows.begin() + block.count);
+  }
+  return out;
 }
 
 /// Pairs of blocks that act on the same body, each once.
@@ -79,7 +89,8 @@ MultiplierCondensation::MultiplierCondensation(int num_bodies, const std::vector
       num_direct_blocks_(num_blocks_before(force_, force_.num_rows() - num_loose)),
       blocks_on_body_(static_cast<std::size_t>(num_bodies)),
       couples_(couples_of(force_, num_direct_blocks_, num_bodies)),
-      block_lu_(sizes_of(force_, num_direct_blocks_), couples_) {
+      block_lu_(sizes_of(force_, num_direct_blocks_), couples_,
+                rows_of(force_, num_direct_blocks_)) {
   const auto& blocks = force_.blocks();
   for (std::size_t k = 0; k < num_direct_blocks_; ++k) {
     const auto sides = force_.sides(blocks[k]);
@@ -182,7 +193,8 @@ void MultiplierCondensation::for_entries(Take&& take) {
     const int stride = block_lu_.stride(place);
     for (int m = 0; m < column.count; ++m) {
       for (int k = 0; k < row.count; ++k) {
-        take(row.first_row + k, column.first_row + m, S[m * stride + k]);
+        take(row.rows[static_cast<std::size_t>(k)], column.rows[static_cast<std::size_t>(m)],
+             S[m * stride + k]);
       }
     }
   }

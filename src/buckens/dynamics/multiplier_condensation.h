@@ -75,6 +75,10 @@ class MultiplierCondensation {
   /// Slopes for the next factorisations; their rows and soft rows must act on a common body.
   void set_slopes(const std::vector<MultiplierSlope>& slopes) { slopes_ = slopes; }
 
+  /// Forms S′ again with other slopes, all else as it is; leaves them out where pivots are poor.
+  void renew_slopes(const std::vector<MultiplierSlope>& slopes,
+                    const std::vector<double>& soft_compliance);
+
   /// x ← S⁻¹ x.
   void solve_in_place(linalg::Vector& x) const { solve(x, Slopes::left_out); }
   /// x ← S′⁻¹ x; with S where pivots of S′ are poor, as near the jamming of a joint by friction.
@@ -120,6 +124,7 @@ class MultiplierCondensation {
   bool factorise_direct(const std::vector<BodyCompliance>& compliance,
                         const std::vector<double>& soft_compliance);
   void factorise_with_slopes(const std::vector<double>& soft_compliance);
+  void leave_slopes_out();
   void solve(linalg::Vector& x, Slopes slopes) const;
   void solve_direct(linalg::Vector& x, Slopes slopes) const;
   void set_loose_blocks();
@@ -141,6 +146,7 @@ class MultiplierCondensation {
   std::optional<linalg::SparseLu> general_;
   std::vector<MultiplierSlope> slopes_;
   std::optional<linalg::BlockLu> sloped_;  // S′, empty until it is needed
+  std::vector<double> before_slopes_;      // its values without them
   bool has_sloped_ = false;                // multipliers are found with it
 
   // Of loose rows only: what the bodies give, and the inverse of what each block gives alone.

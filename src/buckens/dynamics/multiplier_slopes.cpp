@@ -8,11 +8,9 @@ namespace buckens::dynamics {
 void MultiplierCondensation::factorise_with_slopes(const std::vector<double>& soft_compliance) {
   has_sloped_ = false;
   if (slopes_.empty()) return;
-  if (sloped_) {
-    sloped_->take_values(block_lu_);
-  } else {
-    sloped_ = block_lu_;
-  }
+  if (!sloped_) sloped_ = block_lu_;
+  before_slopes_ = block_lu_.values();
+  sloped_->take_values(before_slopes_);
   subtract_slopes(soft_compliance, *sloped_);
   has_sloped_ = sloped_->factorise() && sloped_->pivot_ratio() > kPoorPivot;
 }
@@ -23,12 +21,27 @@ bool MultiplierCondensation::factorise_multipliers(const std::vector<BodyComplia
   if (num_loose_ > 0 || exchanges_rows_) return false;
   if (!sloped_) sloped_ = block_lu_;
   assemble(compliance, soft_compliance, *sloped_);
+  before_slopes_ = sloped_->values();
   subtract_slopes(soft_compliance, *sloped_);
   has_sloped_ = sloped_->factorise() && sloped_->pivot_ratio() > kPoorPivot;
-  if (has_sloped_ || slopes_.empty()) return has_sloped_;
-  assemble(compliance, soft_compliance, *sloped_);
-  has_sloped_ = sloped_->factorise() && sloped_->pivot_ratio() > kPoorPivot;
+  if (!has_sloped_ && !slopes_.empty()) leave_slopes_out();
   return has_sloped_;
+}
+
+void MultiplierCondensation::leave_slopes_out() {
+  slopes_.clear();
+  sloped_->take_values(before_slopes_);
+  has_sloped_ = sloped_->factorise() && sloped_->pivot_ratio() > kPoorPivot;
+}
+
+void MultiplierCondensation::renew_slopes(const std::vector<MultiplierSlope>& slopes,
+                                          const std::vector<double>& soft_compliance) {
+  if (!has_sloped_) return;
+  slopes_ = slopes;
+  sloped_->take_values(before_slopes_);
+  subtract_slopes(soft_compliance, *sloped_);
+  has_sloped_ = sloped_->factorise() && sloped_->pivot_ratio() > kPoorPivot;
+  if (!has_sloped_) leave_slopes_out();
 }
 
 void MultiplierCondensation::subtract_slopes(const std::vector<double>& soft_compliance,
@@ -37,10 +50,9 @@ void MultiplierCondensation::subtract_slopes(const std::vector<double>& soft_com
   for (const MultiplierSlope& slope : slopes_) {
     const int i = force_.block_of(slope.soft_row), j = force_.block_of(slope.row);
     const int place = from.place(i, j);
-    const auto offset = [&](int row, int block) {
-      return row - force_.blocks()[static_cast<std::size_t>(block)].first_row;
-    };
-    from.block(place)[offset(slope.row, j) * from.stride(place) + offset(slope.soft_row, i)] -=
+    const int entry = force_.number_in_block(slope.row) * from.stride(place) +
+                      force_.number_in_block(slope.soft_row);
+    from.block(place)[entry] -=
         soft_compliance[static_cast<std::size_t>(slope.soft_row - first_soft)] * slope.value;
   }
 }

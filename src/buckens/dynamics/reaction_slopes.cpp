@@ -30,46 +30,35 @@ void append_slopes_of_row(const model::Joint& joint, int soft, const spatial::Wr
 }  // namespace
 
 ReactionSlopes::ReactionSlopes(const model::Model& model) : model_(model) {
-  int soft = 0;
-  for (std::size_t k = 0; k < model.loads.size(); ++k) {
-    const model::Load& load = model.loads[k];
-    const auto* law = dynamic_cast<const loads::ReactionFollower*>(load.element.get());
-    if (law != nullptr && load.joint >= 0) followers_.push_back({k, soft, law});
-    const auto* rubbing = dynamic_cast<const loads::ContactFriction*>(load.element.get());
-    if (rubbing != nullptr) rubbing_.push_back({k, soft, rubbing});
-    soft += load.element->num_soft_rows();
+  for (const model::Load& load : model.loads) {
+    followers_.push_back(load.joint < 0
+                             ? nullptr
+                             : dynamic_cast<const loads::ReactionFollower*>(load.element.get()));
+    rubbing_.push_back(dynamic_cast<const loads::ContactFriction*>(load.element.get()));
   }
 }
 
-void ReactionSlopes::evaluate(const std::vector<BodyMotion>& motions, double t,
-                              const Circumstances& around, std::vector<ReactionSlope>& out) const {
-  out.clear();
-  thread_local std::vector<spatial::Wrench> slopes;  // kept, so that steps allocate nothing
-  for (const Follower& follower : followers_) {
-    if (around.memory != nullptr && around.memory->is_off(follower.load)) continue;
-    const model::Load& load = model_.loads[follower.load];
-    const model::Joint& joint = model_.joints[static_cast<std::size_t>(load.joint)];
-    const LoadEnds ends = ends_of(model_, load, motions, around.memory);
-    const loads::Sight sight = sight_of(model_, follower.load, t, around, ends.first.motion,
-                                        ends.second.motion, ends.travels());
+void ReactionSlopes::append(std::size_t load, int soft, const loads::Sight& sight,
+                            const Circumstances& around, const Travel* travel,
+                            std::vector<ReactionSlope>& out) const {
+  if (const loads::ReactionFollower* law = followers_[load]) {
+    const model::Joint& joint = model_.joints[static_cast<std::size_t>(model_.loads[load].joint)];
+    thread_local std::vector<spatial::Wrench> slopes;  // kept, so that steps allocate nothing
     slopes.clear();
-    follower.law->append_slopes(sight, slopes);
+    law->append_slopes(sight, slopes);
     for (std::size_t k = 0; k < slopes.size(); ++k) {
-      append_slopes_of_row(joint, follower.soft + static_cast<int>(k), slopes[k], sight,
-                           states_of(joint, around.memory), ends.travels(), out);
+      append_slopes_of_row(joint, soft + static_cast<int>(k), slopes[k], sight,
+                           states_of(joint, around.memory), travel, out);
     }
   }
-  for (const Rubbing& one : rubbing_) {
-    if (around.memory != nullptr && around.memory->is_off(one.load)) continue;
-    const model::Load& load = model_.loads[one.load];
-    const LoadEnds ends = ends_of(model_, load, motions, around.memory);
-    const double slope = one.law->slope(sight_of(model_, one.load, t, around, ends));
-    if (slope == 0.0) continue;
+  if (const loads::ContactFriction* law = rubbing_[load]) {
+    const double slope = law->slope(sight);
+    if (slope == 0.0) return;
     // The force across the surface counts positive where it pushes, whatever its row is.
-    const int across = one.soft - 1 - one.law->direction();
-    const auto& row = model_.loads[one.load - 1 - static_cast<std::size_t>(one.law->direction())];
+    const int across = soft - 1 - law->direction();
+    const auto& row = model_.loads[load - 1 - static_cast<std::size_t>(law->direction())];
     const auto& stop = static_cast<const loads::RigidLaw&>(*row.element);
-    out.push_back({one.soft, -1, across, slope * stop.contact(0.0).sign});
+    out.push_back({soft, -1, across, slope * stop.contact(0.0).sign});
   }
 }
 

@@ -26,27 +26,15 @@ class ReactionSlopes {
   /// @param model must outlive this object
   explicit ReactionSlopes(const model::Model& model);
 
-  /// Whether no force of the model looks at a reaction.
-  bool empty() const { return followers_.empty() && rubbing_.empty(); }
-  /// The slopes at one instant, in the order of the soft rows.
-  void evaluate(const std::vector<BodyMotion>& motions, double t, const Circumstances& around,
-                std::vector<ReactionSlope>& out) const;
+  /// Appends those of a load, if it has any. @param soft its first soft row
+  /// @param sight as the law sees it, @param travel of a law on a slider's coordinate
+  void append(std::size_t load, int soft, const loads::Sight& sight, const Circumstances& around,
+              const Travel* travel, std::vector<ReactionSlope>& out) const;
 
  private:
-  struct Follower {
-    std::size_t load;
-    int soft;  // its first soft row
-    const loads::ReactionFollower* law;
-  };
-  /// Friction along one direction of a rigid contact.
-  struct Rubbing {
-    std::size_t load;
-    int soft;
-    const loads::ContactFriction* law;
-  };
   const model::Model& model_;
-  std::vector<Follower> followers_;
-  std::vector<Rubbing> rubbing_;
+  std::vector<const loads::ReactionFollower*> followers_;  // by load, null: it does not follow
+  std::vector<const loads::ContactFriction*> rubbing_;     // along one direction of a rigid contact
 };
 
 }  // namespace buckens::dynamics

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -21,9 +22,10 @@ struct Displacement {
   const Eigen::VectorXd* y;  ///< of bodies with a mesh
 };
 
-/// Up to six rows between the same markers, side by side: usually a joint. A row that couples
-/// several joints has a side for each marker of theirs.
+/// Up to six rows between the same markers: usually a joint, with the laws on its coordinates. A
+/// row that couples several joints has a side for each marker of theirs.
 struct RowBlock {
+  static constexpr int kMostRows = 6;
   /// The rows' derivatives with respect to one body.
   struct Side {
     int body = model::kGround;
@@ -32,7 +34,7 @@ struct RowBlock {
     std::size_t interface = 0;                    ///< the same, if the marker follows a mesh
     bool follows_mesh() const { return translation_row >= 0; }
   };
-  int first_row = 0;
+  std::array<int, kMostRows> rows{};  ///< ascending
   int count = 0;
   std::size_t first_side = 0;
   std::size_t num_sides = 0;
@@ -46,18 +48,21 @@ struct RowBlock {
 /// numbers, twelve for a rigid pair, and what its block has in common is stored once.
 class RowBlocks {
  public:
-  static constexpr int kMostRows = 6;
+  static constexpr int kMostRows = RowBlock::kMostRows;
 
   /// @param pattern one entry per row with body numbers and marker rows set; values are not read
-  /// @param num_behind rows at the end that never share a block with those before them
+  /// @param num_behind rows at the end that never share a block with those before them; theirs are
+  /// side by side
   explicit RowBlocks(const std::vector<SystemRow>& pattern, int num_behind = 0);
 
   const std::vector<RowBlock>& blocks() const { return blocks_; }
   std::span<const RowBlock::Side> sides(const RowBlock& block) const {
     return {&sides_[block.first_side], block.num_sides};
   }
-  int num_rows() const { return static_cast<int>(block_of_row_.size()); }
-  int block_of(int row) const { return block_of_row_[static_cast<std::size_t>(row)]; }
+  int num_rows() const { return static_cast<int>(places_.size()); }
+  int block_of(int row) const { return places_[static_cast<std::size_t>(row)].block; }
+  /// Number of a row within its block.
+  int number_in_block(int row) const { return places_[static_cast<std::size_t>(row)].number; }
 
   /// Stores the numbers of a row. Its bodies are those of the pattern, and its marker rows unless
   /// it travels; an empty row is zero.
@@ -84,13 +89,17 @@ class RowBlocks {
         if (side.body == model::kGround) continue;
         const Displacement moved = displacement(side.body);
         for (int k = 0; k < block.count; ++k) {
-          out[block.first_row + k] += change(side, k, moved);
+          out[block.rows[static_cast<std::size_t>(k)]] += change(side, k, moved);
         }
       }
     }
   }
 
  private:
+  /// Begins a block like a row of the pattern.
+  void add_block(const SystemRow& row);
+  /// Gives the blocks room for their numbers.
+  void lay_out();
   double change(const RowBlock::Side& side, int k, const Displacement& moved) const {
     using Vector6 = Eigen::Matrix<double, 6, 1>;
     double out = Eigen::Map<const Vector6>(frame(side, k)).dot(*moved.u);
@@ -104,7 +113,10 @@ class RowBlocks {
 
   std::vector<RowBlock> blocks_;
   std::vector<RowBlock::Side> sides_;  // block by block
-  std::vector<int> block_of_row_;
+  struct Place {
+    int block, number;
+  };
+  std::vector<Place> places_;  // of each row
   std::vector<double> values_;
 };
 

@@ -18,13 +18,29 @@ namespace {
 // How far beyond an end of a beam counts as rounding, of its length.
 constexpr double kBeyondEnd = 1e-9;
 
+/// Motions of the markers of a coordinate, unless it travels along a beam.
+struct Markers {
+  bool are_known = false;
+  spatial::MarkerMotion first, second;
+};
+
+/// Of all coordinates: laws look at the markers of theirs. Kept, so that steps allocate nothing.
+std::vector<Markers>& markers_of_coordinates() {
+  thread_local std::vector<Markers> room;
+  return room;
+}
+
 double fraction_of(const model::Model& model, const model::Coordinate& coordinate,
-                   const std::vector<BodyMotion>& motions, const model::RowMemory* memory) {
-  if (const model::Joint* slider = slider_of(model, coordinate)) {
-    return Travel(model, *slider, motions, memory).displacement();
-  }
-  return coordinate.law.fraction(evaluate_marker(model, coordinate.first, motions).motion,
-                                 evaluate_marker(model, coordinate.second, motions).motion);
+                   const std::vector<BodyMotion>& motions, const model::RowMemory* memory,
+                   Markers* seen = nullptr) {
+  Markers own;
+  Markers& markers = seen != nullptr ? *seen : own;
+  const model::Joint* const slider = slider_of(model, coordinate);
+  markers.are_known = slider == nullptr;
+  if (slider != nullptr) return Travel(model, *slider, motions, memory).displacement();
+  markers.first = evaluate_marker(model, coordinate.first, motions).motion;
+  markers.second = evaluate_marker(model, coordinate.second, motions).motion;
+  return coordinate.law.fraction(markers.first, markers.second);
 }
 
 /// Where a slider is on its beam.
@@ -134,11 +150,13 @@ void advance_memory(const model::Model& model, const std::vector<BodyMotion>& mo
   const model::RowMemory& before = *around.memory;
   out.off = before.off;
   out.released = before.released;
+  std::vector<Markers>& seen = markers_of_coordinates();
+  seen.resize(before.coordinates.size());
   out.coordinates.resize(before.coordinates.size());
   for (std::size_t k = 0; k < before.coordinates.size(); ++k) {
     const model::Coordinate& coordinate = model.coordinates[k];
-    out.coordinates[k] = coordinate.law.follow(before.coordinates[k],
-                                               fraction_of(model, coordinate, motions, &before));
+    out.coordinates[k] = coordinate.law.follow(
+        before.coordinates[k], fraction_of(model, coordinate, motions, &before, &seen[k]));
   }
   out.rows.resize(before.rows.size());
   if (before.rows.size() > 0) {
@@ -153,9 +171,16 @@ void advance_memory(const model::Model& model, const std::vector<BodyMotion>& mo
       out.laws.segment(load.first_state, count) = before.laws.segment(load.first_state, count);
       continue;
     }
+    double* const states = out.laws.data() + load.first_state;
+    const auto coordinate = static_cast<std::size_t>(load.coordinate);
+    if (load.joint >= 0 && load.coordinate >= 0 && seen[coordinate].are_known) {
+      const Markers& markers = seen[coordinate];
+      load.element->find_states(sight_of(model, k, t, around, markers.first, markers.second),
+                                states);
+      continue;
+    }
     const LoadEnds ends = ends_of(model, load, motions, &before);
-    load.element->find_states(sight_of(model, k, t, around, ends),
-                              out.laws.data() + load.first_state);
+    load.element->find_states(sight_of(model, k, t, around, ends), states);
   }
   advance_near(model, motions, t, around, out);
   advance_signals(model, motions, t, around, out);

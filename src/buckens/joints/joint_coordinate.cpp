@@ -14,6 +14,11 @@ using spatial::MarkerMotion;
 
 namespace {
 constexpr double kTurn = 2.0 * std::numbers::pi;
+
+/// R v, written out: Eigen calls a function for it, and friction needs many.
+inline Vector3d axes_times(const Eigen::Matrix3d& R, const Vector3d& v) {
+  return R.col(0) * v[0] + R.col(1) * v[1] + R.col(2) * v[2];
+}
 }  // namespace
 
 double CountedValue::value() const { return kTurn * turns + fraction; }
@@ -80,10 +85,11 @@ Vector3d line_of(const MarkerMotion& F, const MarkerMotion& M) {
 double JointCoordinate::fraction(const MarkerMotion& F, const MarkerMotion& M) const {
   if (kind_ == Kind::length) return (M.p - F.p).norm();
   if (kind_ == Kind::gap) return gap_->gap(F, M);
-  const Vector3d axis = axis_now(F, M);
+  const Vector3d axis =
+      kind_ == Kind::second_angle ? axes_times(M.R, axis_M_) : axes_times(F.R, axis_F_);
   if (kind_ == Kind::displacement) return axis.dot(M.p - F.p) - offset_;
-  const Vector3d x = F.R * x_F_;
-  const Vector3d moved = M.R * x_M_;
+  const Vector3d x = axes_times(F.R, x_F_);
+  const Vector3d moved = axes_times(M.R, x_M_);
   return std::atan2(axis.cross(x).dot(moved), x.dot(moved));
 }
 
@@ -96,7 +102,8 @@ spatial::PairRow JointCoordinate::derivatives(const MarkerMotion& F, const Marke
     return J;
   }
   if (kind_ == Kind::gap) return gap_->derivatives(F, M);
-  const Vector3d axis = axis_now(F, M);
+  const Vector3d axis =
+      kind_ == Kind::second_angle ? axes_times(M.R, axis_M_) : axes_times(F.R, axis_F_);
   if (is_angle()) {
     J.segment<3>(0) = -axis.transpose();
     J.segment<3>(6) = axis.transpose();

@@ -2,6 +2,7 @@
 #include "buckens/linalg/block_lu.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "buckens/linalg/least_degree.h"
 
@@ -114,9 +115,13 @@ inline void subtract_times(const double* __restrict A, int rows, int columns,
 
 }  // namespace
 
-BlockLu::BlockLu(std::vector<int> sizes, const std::vector<std::pair<int, int>>& couples)
-    : sizes_(std::move(sizes)), first_row_(1, 0), by_row_(sizes_.size()) {
-  for (const int size : sizes_) first_row_.push_back(first_row_.back() + size);
+BlockLu::BlockLu(std::vector<int> sizes, const std::vector<std::pair<int, int>>& couples,
+                 std::vector<int> rows)
+    : sizes_(std::move(sizes)), rows_(std::move(rows)), by_row_(sizes_.size()) {
+  if (rows_.empty()) {
+    rows_.resize(static_cast<std::size_t>(std::accumulate(sizes_.begin(), sizes_.end(), 0)));
+    std::iota(rows_.begin(), rows_.end(), 0);
+  }
   order(couples);
   lay_out();
   clear();
@@ -190,6 +195,21 @@ void BlockLu::lay_out() {
                        first_of(block, block), first, neighbours_.size()});
   }
   coupled_.clear();
+  place_rows();
+}
+
+void BlockLu::place_rows() {
+  diagonal_.resize(rows_.size());
+  stored_place_.clear();
+  for (std::size_t block = 0; block < sizes_.size(); ++block) {
+    const Place& at =
+        places_[static_cast<std::size_t>(place(static_cast<int>(block), static_cast<int>(block)))];
+    for (int k = 0; k < sizes_[block]; ++k) {
+      const auto row = static_cast<std::size_t>(rows_[stored_place_.size()]);
+      diagonal_[row] = at.first + static_cast<std::size_t>(k * at.stride + k);
+      stored_place_.push_back(first_stored_[block] + static_cast<std::size_t>(k));
+    }
+  }
 }
 
 void BlockLu::clear() {
@@ -201,13 +221,7 @@ void BlockLu::clear() {
   }
 }
 
-double& BlockLu::diagonal(int row) {
-  const auto next = std::upper_bound(first_row_.begin(), first_row_.end(), row);
-  const int block = static_cast<int>(next - first_row_.begin()) - 1;
-  const Place& at = places_[static_cast<std::size_t>(place(block, block))];
-  const int k = row - first_row_[static_cast<std::size_t>(block)];
-  return values_[at.first + static_cast<std::size_t>(k * at.stride + k)];
-}
+double& BlockLu::diagonal(int row) { return values_[diagonal_[static_cast<std::size_t>(row)]]; }
 
 template <int R>
 bool BlockLu::eliminate() {
@@ -295,6 +309,8 @@ bool BlockLu::factorise() {
       return eliminate<2>();
     case 3:
       return eliminate<3>();
+    case 4:
+      return eliminate<4>();
     case 5:
       return eliminate<5>();
     case 6:
@@ -306,11 +322,7 @@ bool BlockLu::factorise() {
 
 void BlockLu::solve_in_place(Vector& x) const {
   const auto for_rows = [&](auto&& f) {
-    for (std::size_t k = 0; k < sizes_.size(); ++k) {
-      for (int i = 0; i < sizes_[k]; ++i) {
-        f(x[first_row_[k] + i], x_[first_stored_[k] + static_cast<std::size_t>(i)]);
-      }
-    }
+    for (std::size_t k = 0; k < rows_.size(); ++k) f(x[rows_[k]], x_[stored_place_[k]]);
   };
   std::fill(x_.begin(), x_.end(), 0.0);
   for_rows([](double from, double& to) { to = from; });
@@ -323,6 +335,9 @@ void BlockLu::solve_in_place(Vector& x) const {
       break;
     case 3:
       substitute<3>();
+      break;
+    case 4:
+      substitute<4>();
       break;
     case 5:
       substitute<5>();

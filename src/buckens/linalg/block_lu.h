@@ -26,10 +26,15 @@ class BlockLu {
 
   /// @param sizes rows of each diagonal block, 1 … kLargestBlock
   /// @param couples pairs of blocks with entries off the diagonal; any order, repetitions allowed
-  BlockLu(std::vector<int> sizes, const std::vector<std::pair<int, int>>& couples);
+  /// @param rows where the rows of the blocks, one after the other, stand in vectors and for
+  /// diagonal(); empty: in this order
+  BlockLu(std::vector<int> sizes, const std::vector<std::pair<int, int>>& couples,
+          std::vector<int> rows = {});
 
-  /// Takes the values of another matrix with the same pattern, before they are factorised.
-  void take_values(const BlockLu& other) { values_ = other.values_; }
+  /// What was entered, before it is factorised.
+  const std::vector<double>& values() const { return values_; }
+  /// Enters all values() of another matrix with the same pattern.
+  void take_values(const std::vector<double>& values) { values_ = values; }
   /// Where a block of the pattern is stored. @param i,j equal, or a pair of the constructor
   int place(int i, int j) const;
   /// Starts a new matrix: all values become zero.
@@ -47,7 +52,7 @@ class BlockLu {
   /// x ← A⁻¹ x with the last factorisation. Allocates nothing.
   void solve_in_place(Vector& x) const;
 
-  int size() const { return first_row_.back(); }
+  int size() const { return static_cast<int>(rows_.size()); }
   /// Numbers stored, including padding.
   std::size_t num_entries() const { return values_.size(); }
 
@@ -76,6 +81,7 @@ class BlockLu {
 
   void order(const std::vector<std::pair<int, int>>& couples);
   void lay_out();
+  void place_rows();
   template <int R>
   bool eliminate();
   template <int R>
@@ -83,7 +89,10 @@ class BlockLu {
   template <int R>
   void substitute() const;
 
-  std::vector<int> sizes_, first_row_;
+  std::vector<int> sizes_;
+  std::vector<int> rows_;                  // in vectors, block by block
+  std::vector<std::size_t> stored_place_;  // of each of them in x_
+  std::vector<std::size_t> diagonal_;      // entry of each row of vectors in values_
   std::vector<std::size_t> first_stored_;
   std::vector<Place> places_;
   std::vector<std::vector<std::pair<int, int>>> by_row_;  // per block: (column, place), ascending

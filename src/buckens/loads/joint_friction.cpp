@@ -11,6 +11,11 @@ using Eigen::Vector3d;
 
 namespace {
 constexpr double kAtOnce = 1e-3;  // [s]
+
+/// R v, written out: Eigen calls a function for it, and every iteration of a step comes by here.
+inline Vector3d axis_in_world(const Eigen::Matrix3d& R, const Vector3d& v) {
+  return R.col(0) * v[0] + R.col(1) * v[1] + R.col(2) * v[2];
+}
 }  // namespace
 
 void JointFriction::start_states(const Sight& sight, double* states) const {
@@ -20,7 +25,7 @@ void JointFriction::start_states(const Sight& sight, double* states) const {
 }
 
 double FrictionBound::load(const Sight& sight) const {
-  const Vector3d axis = sight.first.R * axis_F_;
+  const Vector3d axis = axis_in_world(sight.first.R, axis_F_);
   const auto along = [&](const Vector3d& v) { return std::abs(v.dot(axis)); };
   const auto across = [&](const Vector3d& v) { return Vector3d(v - axis * v.dot(axis)).norm(); };
   const Vector3d& force = sight.reaction.force;
@@ -35,7 +40,7 @@ double FrictionBound::load(const Sight& sight) const {
 }
 
 spatial::Wrench FrictionBound::load_slope(const Sight& sight, double factor) const {
-  const Vector3d axis = sight.first.R * axis_F_;
+  const Vector3d axis = axis_in_world(sight.first.R, axis_F_);
   const auto along = [&](const Vector3d& v) -> Vector3d {
     return v.dot(axis) < 0.0 ? Vector3d(-axis) : axis;
   };
@@ -54,6 +59,7 @@ spatial::Wrench FrictionBound::load_slope(const Sight& sight, double factor) con
 }
 
 double FrictionBound::coefficient(double rate) const {
+  if (data_.static_coefficient == data_.dynamic_coefficient) return data_.dynamic_coefficient;
   const double slowness = data_.stribeck_rate > 0.0 ? std::abs(rate) / data_.stribeck_rate : 0.0;
   return data_.dynamic_coefficient +
          (data_.static_coefficient - data_.dynamic_coefficient) * std::exp(-slowness * slowness);

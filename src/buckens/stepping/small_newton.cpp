@@ -111,7 +111,8 @@ bool SmallNewton::corrects_positions() const {
   return scheme_.weight == 1.0 || settings_.position_projection;
 }
 
-void SmallNewton::evaluate(std::vector<BodyStep>& bodies, double t, const Vector& lambda) {
+void SmallNewton::evaluate(std::vector<BodyStep>& bodies, double t, const Vector& lambda,
+                           std::vector<dynamics::ReactionSlope>* slopes) {
   const bool same = scheme_.weight == 1.0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     bodies[b].motion_at_end(scheme_, answers_[b], end_[b]);
@@ -119,12 +120,13 @@ void SmallNewton::evaluate(std::vector<BodyStep>& bodies, double t, const Vector
   }
   steer(t);
   const double t_e = scheme_.evaluation_time(t);
-  dynamics::evaluate_forces(model_, at_evaluation(), t_e, around_, forces_);
+  dynamics::evaluate_forces(model_, at_evaluation(), t_e, around_, forces_, 1.0, &joints_.laws());
+  const dynamics::JointSet::Laws with{around_, slopes};
   if (same) {
-    joints_.evaluate(end_, t + scheme_.h, around_.memory, residuals_, &lambda, &forces_);
+    joints_.evaluate(end_, t + scheme_.h, around_.memory, residuals_, &lambda, &forces_, &with);
   } else {
     joints_.evaluate(end_, t + scheme_.h, around_.memory, residuals_);
-    joints_.evaluate(evaluation_, t_e, around_.memory, other_residuals_, &lambda, &forces_);
+    joints_.evaluate(evaluation_, t_e, around_.memory, other_residuals_, &lambda, &forces_, &with);
   }
   keep_shapes_in_rates(bodies, t + scheme_.h);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -157,8 +159,8 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
   }
   ending_.begin(dynamics::rounding_length(model_, end_));
   steer(t);
-  dynamics::evaluate_soft_rows(model_, at_evaluation(), scheme_.evaluation_time(t), around_, soft_);
-  reaction_slopes_.evaluate(at_evaluation(), scheme_.evaluation_time(t), around_, slopes_);
+  dynamics::evaluate_soft_rows(model_, at_evaluation(), scheme_.evaluation_time(t), around_, soft_,
+                               &reaction_slopes_, &slopes_);
   follow_near();
   follow_released(t);
   bool is_closed = condense(t);
@@ -417,7 +419,7 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
   int since_moved = 0;  // iterations since a rigid row moved last
   for (;;) {
     ++since_moved;
-    evaluate(bodies, t, lambda);
+    evaluate(bodies, t, lambda, slopes_are_old_ ? &slopes_of_joints_ : nullptr);
     record_residuals(residuals_, report);
     bool are_formed = regimes_hold(bodies, t, report);
     const bool is_settled =
@@ -446,6 +448,7 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
       fail(t, report, "the step's iteration does not converge");
     }
     if (!are_formed) find_residuals(bodies);
+    if (renew_slopes()) before = {};
     change = move(bodies, t, lambda, report);
   }
   watch_rows(t, report);
@@ -457,6 +460,9 @@ void SmallNewton::iterate(std::vector<BodyStep>& bodies, double t, Vector& lambd
   evaluate(bodies, t, lambda);
   record_residuals(residuals_, report);
   find_residuals(bodies);
+  slopes_are_old_ = std::any_of(
+      slopes_.begin(), slopes_.end(),
+      [this](const dynamics::ReactionSlope& slope) { return joints_.has_soft_row(slope.soft); });
   settle(bodies, t, lambda, move(bodies, t, lambda, report), report);
 }
 

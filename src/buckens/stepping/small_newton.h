@@ -69,7 +69,9 @@ class SmallNewton {
 
  private:
   using Change = IterationEnd::Change;
-  void evaluate(std::vector<BodyStep>& bodies, double t, const linalg::Vector& lambda);
+  /// @param slopes null, or to be filled with those of laws on joints
+  void evaluate(std::vector<BodyStep>& bodies, double t, const linalg::Vector& lambda,
+                std::vector<dynamics::ReactionSlope>* slopes = nullptr);
   /// Tells drives by signals where they are to be at the end of the step.
   void steer(double t);
   /// @return size of the residual of the bodies' equations of motion [m]
@@ -106,6 +108,9 @@ class SmallNewton {
   int place_of(const dynamics::ReactionSlope& slope) const;
   /// Passes on how friction grows with multipliers, after the soft rows.
   void set_slopes();
+  /// Passes them on once more, as they are after the first iteration: slopes by multipliers of the
+  /// last step are wrong by the angle by which reactions have turned since. @return whether it did
+  bool renew_slopes();
   /// Corrections of positions are those of the soft rows as they are now.
   void keep_for_corrections();
   /// The rigid row at a place among the soft ones if it is closed, else null.
@@ -186,7 +191,9 @@ class SmallNewton {
   std::vector<double> soft_compliance_;
   std::vector<double> soft_stiffness_share_;  // k θ / k_eff
   dynamics::ReactionSlopes reaction_slopes_;
-  std::vector<dynamics::ReactionSlope> slopes_;  // as the soft rows are
+  std::vector<dynamics::ReactionSlope> slopes_;            // as the soft rows are
+  std::vector<dynamics::ReactionSlope> slopes_of_joints_;  // after the first iteration
+  bool slopes_are_old_ = false;                            // still those of the predicted motion
   std::vector<dynamics::MultiplierSlope> slopes_in_use_;
   std::vector<dynamics::BodyCompliance> compliance_;
 

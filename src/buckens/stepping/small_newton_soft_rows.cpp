@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Soft rows of force laws in the iteration of a step, and what follows when laws change regimes.
+#include <algorithm>
 #include <utility>
 
 #include "buckens/stepping/small_newton.h"
@@ -75,6 +76,21 @@ void SmallNewton::set_slopes() {
   condensation_->set_slopes(slopes_in_use_);
 }
 
+bool SmallNewton::renew_slopes() {
+  if (!slopes_are_old_) return false;
+  slopes_are_old_ = false;
+  // Those of other loads stay as they are.
+  const auto is_at_joint = [this](const dynamics::ReactionSlope& slope) {
+    return joints_.has_soft_row(slope.soft);
+  };
+  slopes_.erase(std::remove_if(slopes_.begin(), slopes_.end(), is_at_joint), slopes_.end());
+  slopes_.insert(slopes_.end(), slopes_of_joints_.begin(), slopes_of_joints_.end());
+  set_slopes();
+  condensation_->renew_slopes(slopes_in_use_, soft_compliance_);
+  ending_.begin_anew();
+  return true;
+}
+
 const loads::RigidRow* SmallNewton::closed_row(std::size_t soft) const {
   if (!soft_.is_closed[soft]) return nullptr;
   return &forces_.rigid[static_cast<std::size_t>(soft_.rigid[soft])];
@@ -134,7 +150,8 @@ bool SmallNewton::form_tangent(std::vector<BodyStep>& bodies, bool rigid_rows_mo
 bool SmallNewton::regimes_hold(std::vector<BodyStep>& bodies, double t, const StepReport& report) {
   if (forces_.regimes == soft_.regimes) return true;
   dynamics::evaluate_soft_rows(model_, at_evaluation(), scheme_.evaluation_time(t), around_,
-                               soft_now_);
+                               soft_now_, &reaction_slopes_, &slopes_);
+  slopes_are_old_ = false;
   // Directions stay those of the predicted configuration, as of the joints.
   std::swap(soft_.stiffness, soft_now_.stiffness);
   std::swap(soft_.damping, soft_now_.damping);
@@ -142,7 +159,6 @@ bool SmallNewton::regimes_hold(std::vector<BodyStep>& bodies, double t, const St
   std::swap(soft_.is_closed, soft_now_.is_closed);
   held_.hold_reversed(soft_now_.regimes, at_evaluation(), scheme_.evaluation_time(t), around_,
                       soft_);
-  reaction_slopes_.evaluate(at_evaluation(), scheme_.evaluation_time(t), around_, slopes_);
   if (!form_tangent(bodies, soft_.is_closed != soft_now_.is_closed)) {
     fail(t, report, "laws of joint coordinates that act together differ too much in stiffness");
   }

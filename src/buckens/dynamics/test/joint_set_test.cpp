@@ -2,7 +2,9 @@
 // Joints stored contiguously against the model's own evaluation of them.
 #include "buckens/dynamics/joint_set.h"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -10,6 +12,8 @@
 #include "buckens/dynamics/row_blocks.h"
 #include "buckens/dynamics/test/example_models.h"
 #include "buckens/fem/mesh/box_mesh.h"
+#include "buckens/loads/ball_friction.h"
+#include "buckens/loads/joint_friction.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::dynamics {
@@ -162,13 +166,131 @@ TEST(JointSet, DerivesAsTheModelDoes) {
   EXPECT_EQ(count, model.num_constraint_rows());
 }
 
+loads::FrictionData pin() {
+  loads::FrictionData out;
+  out.static_coefficient = 0.3;
+  out.dynamic_coefficient = 0.2;
+  out.stribeck_rate = 0.5;
+  out.viscous = 0.1;
+  out.slip = 1e-2;
+  out.inertia = 0.02;
+  out.radius = 0.01;
+  out.axial_radius = 0.03;
+  return out;
+}
+
+/// Laws of every kind on joints, with other loads between them.
+model::Model with_laws_on_joints() {
+  test::Mechanism m;
+  test::BeamConstants beam;
+  beam.elements = 2;
+  const Eigen::Quaterniond turned = spatial::exp_rotation(Vector3d(0.3, -0.2, 0.5));
+  const int rigid = m.add_rigid(2.0, Eigen::Matrix3d::Identity(), {{0.2, 0.1, 0}, turned});
+  const int rod = m.add_flexible(test::straight_beam(beam), {}, {{1, 0, 0.2}, turned});
+  const auto on_rigid = m.rigid_marker(rigid, {0.1, 0.2, 0.3}, turned);
+  const auto on_rod = m.node_marker(rod, 2);
+  const Vector3d axis = Vector3d::UnitZ();
+  const auto angle = joints::JointCoordinate::angle(axis, Eigen::Matrix3d::Identity());
+  const auto spring = [&](double k) {
+    m.add_load(std::make_unique<loads::SpringDamper>(k, 0.1, 0.2, std::nullopt), on_rigid, on_rod);
+  };
+  m.add_joint(JointType::revolute, test::Mechanism::ground({0.1, 0, 0}), on_rigid, axis);
+  m.add_law(std::make_unique<loads::JointFriction>(pin(), axis), angle);
+  spring(3.0);
+  m.add_law(std::make_unique<loads::CoordinateSpring>(2.0, 0.1, 0.0), angle);
+  m.add_joint(JointType::revolute, m.node_marker(rod, 0), on_rigid, axis);
+  m.add_law(std::make_unique<loads::RigidFriction>(pin(), axis), angle);
+  m.add_law(
+      std::make_unique<loads::BristleFriction>(pin(), loads::BristleData{5.0, 0.1, 0.5}, axis),
+      angle);
+  spring(4.0);
+  m.add_joint(JointType::spherical, on_rod, test::Mechanism::ground({1, 0, 1}));
+  m.add_law_of_joint(std::make_unique<loads::BallFriction>(pin(), std::nullopt));
+  return m.take();
+}
+
+TEST(JointSet, LawsOnJointsActAsAloneSoFarAsTheyAreOn) {
+  const model::Model model = with_laws_on_joints();
+  const std::vector<BodyMotion> motions = any_motions(model);
+  Vector lambda(model.num_constraint_rows());
+  for (int k = 0; k < static_cast<int>(lambda.size()); ++k) lambda[k] = 5.0 * any_number(7 * k);
+  model::RowMemory memory = model::placed_state(model).memory;
+  for (Eigen::Index k = 0; k < memory.laws.size(); ++k) memory.laws[k] += 0.001;
+  memory.laws[model.loads[3].first_state] = 3;  // the rigid one slides backwards
+  const JointSet joints(model);
+  EXPECT_EQ(std::count(joints.laws().begin(), joints.laws().end(), 1), 5);
+  const auto check = [&](std::size_t turning) {
+    const Circumstances around{nullptr, &memory, &lambda, nullptr, nullptr};
+    Forces expected, found;
+    JointResiduals residuals;
+    evaluate_forces(model, motions, kInstant, around, expected);
+    joints.evaluate(motions, kInstant, &memory, residuals, &lambda, &expected);
+    evaluate_forces(model, motions, kInstant, around, found, 1.0, &joints.laws());
+    EXPECT_GT((found.frame[0] - expected.frame[0]).norm(), 0.1);
+    std::vector<ReactionSlope> slopes;
+    const JointSet::Laws with{around, &slopes};
+    joints.evaluate(motions, kInstant, &memory, residuals, &lambda, &found, &with);
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      EXPECT_LE((found.frame[b] - expected.frame[b]).norm(), 10 * kOrder) << b;
+      EXPECT_LE((found.interface[b] - expected.interface[b]).norm(), 10 * kOrder) << b;
+    }
+    EXPECT_EQ(found.regimes, expected.regimes);
+    EXPECT_EQ(
+        std::count_if(found.regimes.begin(), found.regimes.end(), [](int r) { return r != 0; }),
+        static_cast<std::ptrdiff_t>(turning));
+    ASSERT_EQ(found.rigid.size(), 1U);
+    EXPECT_NEAR(found.rigid[0].given, expected.rigid[0].given, kOrder);
+    EXPECT_NEAR(found.stored_energy, expected.stored_energy, kOrder);
+    EXPECT_NEAR(found.active_power, expected.active_power, 10 * kOrder);
+    EXPECT_NEAR(found.dissipation, expected.dissipation, 10 * kOrder);
+  };
+  check(3);  // of a spring and of bristles that are hardly bent it is zero
+  memory.off.assign(model.loads.size(), 0);
+  memory.off[0] = 1;
+  check(2);
+  memory.released.assign(model.joints.size(), 0);
+  // What acts on a joint that has let go acts on, without a reaction.
+  memory.released[1] = 1;
+  lambda.segment(model.joints[1].first_row, std::ssize(model.joints[1].rows)).setZero();
+  check(3);  // bristles without a bound are bent at once
+}
+
+TEST(RowBlocks, RowsBetweenTheSameMarkersAreOneBlock) {
+  const model::Model model = all_joints();
+  const std::vector<BodyMotion> motions = any_motions(model);
+  Constraints constraints;
+  evaluate_constraints(model, motions, kInstant, constraints);
+  // A row of the prismatic joint once more, behind all others, as laws on its coordinate are.
+  const int like = model.joints[3].first_row;
+  std::vector<SystemRow> rows = constraints.rows;
+  const RowBlocks plain(rows);
+  rows.push_back(rows[static_cast<std::size_t>(like)]);
+  const RowBlocks with_law(rows);
+  EXPECT_EQ(with_law.blocks().size(), plain.blocks().size());
+  const int last = with_law.num_rows() - 1;
+  const int block = with_law.block_of(last);
+  EXPECT_EQ(block, with_law.block_of(like));
+  EXPECT_EQ(with_law.number_in_block(last), 5);
+  EXPECT_EQ(with_law.blocks()[static_cast<std::size_t>(block)].rows[5], last);
+  // Those that are left out of the factor stay by themselves.
+  const RowBlocks behind(rows, 1);
+  EXPECT_EQ(behind.blocks().size(), plain.blocks().size() + 1);
+  EXPECT_EQ(behind.blocks().back().rows[0], last);
+}
+
 TEST(RowBlocks, GatherAndChangeAsTheRowsThemselvesDo) {
   const model::Model model = all_joints();
   const std::vector<BodyMotion> motions = any_motions(model);
   Constraints constraints;
   evaluate_constraints(model, motions, kInstant, constraints);
+  // One more along the first, but in another place.
+  constraints.rows.push_back(constraints.rows[0]);
+  for (Vector* values : {&constraints.g_dot, &constraints.g_t}) {
+    values->conservativeResize(values->size() + 1);
+    values->tail(1) = values->head(1);
+  }
   RowBlocks blocks(constraints.rows);
-  EXPECT_EQ(blocks.num_rows(), model.num_constraint_rows());
+  EXPECT_EQ(blocks.num_rows(), model.num_constraint_rows() + 1);
   EXPECT_LT(blocks.blocks().size(), constraints.rows.size());
   for (int r = 0; r < blocks.num_rows(); ++r) {
     blocks.set(r, constraints.rows[static_cast<std::size_t>(r)]);

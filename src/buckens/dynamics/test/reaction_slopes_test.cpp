@@ -73,9 +73,9 @@ void expect_the_derivatives(const model::Model& model, double speed) {
   }
   const auto motions = motions_of(model, state);
   SoftRows soft;
-  evaluate_soft_rows(model, motions, 0.0, circumstances_of(state), soft);
   std::vector<ReactionSlope> slopes;
-  ReactionSlopes(model).evaluate(motions, 0.0, circumstances_of(state), slopes);
+  const ReactionSlopes followers(model);
+  evaluate_soft_rows(model, motions, 0.0, circumstances_of(state), soft, &followers, &slopes);
   ASSERT_FALSE(slopes.empty());
   const double step = 1e-3;
   double largest = 0.0;

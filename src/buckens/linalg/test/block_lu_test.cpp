@@ -111,6 +111,29 @@ TEST(BlockLu, SolvesBlocksOfUnlikeSize) {
   unlike.expect_solution(second);
 }
 
+TEST(BlockLu, ReadsVectorsInTheGivenOrder) {
+  const Example example({3, 2, 3}, chain(3));
+  const std::vector<int> rows = {0, 1, 6, 2, 7, 3, 4, 5};
+  BlockLu lu(example.sizes, example.couples, rows);
+  example.enter(lu);
+  constexpr double kMore = 2.5;  // on the diagonal of the row that is the third of the first block
+  lu.diagonal(6) += kMore;
+  Matrix A = example.A;
+  A(2, 2) += kMore;
+  ASSERT_TRUE(lu.factorise());
+  Vector x(A.rows());
+  for (Eigen::Index k = 0; k < x.size(); ++k) x[k] = some_number(static_cast<int>(3 * k));
+  const Vector right = A * x;
+  Vector found(x.size());
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    found[rows[k]] = right[static_cast<Eigen::Index>(k)];
+  lu.solve_in_place(found);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    // Diagonally dominant: conditions are near one.
+    EXPECT_NEAR(found[rows[k]], x[static_cast<Eigen::Index>(k)], 1e-14 * x.norm()) << k;
+  }
+}
+
 TEST(BlockLu, SolvesTreesLoopsAndCliques) {
   const Example tree(std::vector<int>(7, 3), {{0, 1}, {0, 2}, {1, 3}, {1, 4}, {2, 5}, {2, 6}});
   BlockLu of_tree(tree.sizes, tree.couples);
