@@ -101,59 +101,96 @@ ContactCones::Pressed ContactCones::gather(const std::vector<loads::RigidRow>& r
   return out;
 }
 
-bool ContactCones::decide(const std::vector<loads::RigidRow>& rows, const dynamics::SoftRows& soft,
-                          const std::vector<dynamics::BodyCompliance>& compliance,
-                          const std::vector<dynamics::BodyMotion>& motions,
-                          const std::vector<int>& rows_in_use, const model::RowMemory* memory,
-                          double t, double per_force, double per_change, RigidRows& rigid) {
+bool ContactCones::condense(const Instant& now) {
   // Other rigid rows, as stops and locks, go on as they stand.
   std::vector<dynamics::SystemRow> others;
-  for (std::size_t k = 0; k < soft.rows.size(); ++k) {
-    const int row = soft.rigid[k];
-    if (soft.is_closed[k] && row >= 0 && is_own_[static_cast<std::size_t>(row)] == 0) {
-      others.push_back(soft.rows[k]);
+  for (std::size_t k = 0; k < now.soft.rows.size(); ++k) {
+    const int row = now.soft.rigid[k];
+    if (now.soft.is_closed[k] && row >= 0 && is_own_[static_cast<std::size_t>(row)] == 0) {
+      others.push_back(now.soft.rows[k]);
     }
   }
-  if (!answers_.condense(compliance, motions, rows_in_use, memory, t, others)) return false;
-  bool has_moved = false;
-  for (const Place& place : places_) {
-    if (rigid.stands()[static_cast<std::size_t>(place.across)].regime != 0) continue;
-    for (int k = 1; k <= place.count; ++k) has_moved = rigid.put(place.across + k, {}) || has_moved;
-  }
-  Pressed now = gather(rows, soft, rigid.stands());
-  if (now.places.empty()) return has_moved;
-  for (Push& push : now.pushes) answers_.answer(push);
-  const auto n = static_cast<Eigen::Index>(now.pushes.size());
+  return answers_.condense(now.compliance, now.motions, now.rows_in_use, now.memory, now.t, others);
+}
+
+ContactCones::Outcome ContactCones::solve(const Instant& now, double per_force, double per_change,
+                                          const RigidRows& rigid) const {
+  Outcome out;
+  out.pressed = gather(now.rows, now.soft, rigid.stands());
+  if (out.pressed.places.empty()) return out;
+  std::vector<Push>& pushes = out.pressed.pushes;
+  for (Push& push : pushes) answers_.answer(push);
+  const auto n = static_cast<Eigen::Index>(pushes.size());
   Matrix D(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < n; ++j) {
-      D(i, j) = PushAnswers::along(now.pushes[static_cast<std::size_t>(i)].row,
-                                   now.pushes[static_cast<std::size_t>(j)]);
+      D(i, j) = PushAnswers::along(pushes[static_cast<std::size_t>(i)].row,
+                                   pushes[static_cast<std::size_t>(j)]);
     }
   }
   // Gyroscopic terms make it a little unsymmetric, and sweeps over places that hold the same drift.
   D = 0.5 * (D + D.transpose()).eval();
   // Rates in changes of the step's end.
-  const Vector P = per_force * Eigen::Map<const Vector>(now.force.data(), n);
-  const Vector b = D * P - Eigen::Map<const Vector>(now.rate.data(), n) / per_change;
-  const Vector next = solve_impact(D, b, std::ssize(now.places), now.slips);
-  const Vector rates = per_change * (D * next - b);
-  const double none = kNoRate * per_change * (D.cwiseAbs() * next.cwiseAbs()).maxCoeff();
-  for (std::size_t k = 0; k < now.places.size(); ++k) {
-    const ImpactSlip& own = now.slips[k];
+  const Vector P = per_force * Eigen::Map<const Vector>(out.pressed.force.data(), n);
+  const Vector b = D * P - Eigen::Map<const Vector>(out.pressed.rate.data(), n) / per_change;
+  out.impulses = solve_impact(D, b, std::ssize(out.pressed.places), out.pressed.slips);
+  out.rates = per_change * (D * out.impulses - b);
+  out.none = kNoRate * per_change * (D.cwiseAbs() * out.impulses.cwiseAbs()).maxCoeff();
+  return out;
+}
+
+bool ContactCones::decide(const Instant& now, double per_force, double per_change,
+                          RigidRows& rigid) {
+  if (!condense(now)) return false;
+  bool has_moved = false;
+  for (const Place& place : places_) {
+    if (rigid.stands()[static_cast<std::size_t>(place.across)].regime != 0) continue;
+    for (int k = 1; k <= place.count; ++k) has_moved = rigid.put(place.across + k, {}) || has_moved;
+  }
+  const Outcome found = solve(now, per_force, per_change, rigid);
+  for (std::size_t k = 0; k < found.pressed.places.size(); ++k) {
+    const ImpactSlip& own = found.pressed.slips[k];
     Vector force(1 + own.count);
-    force << next[own.across], next.segment(own.first, own.count);
+    force << found.impulses[own.across], found.impulses.segment(own.first, own.count);
     // A place that others hold as well needs no force of its own; it stays closed.
-    if (!(force[0] > 0.0) && rates[own.across] <= none) continue;
-    const double speed = rates.segment(own.first, own.count).norm();
-    has_moved = put(*now.places[k], force / per_force, speed, rigid) || has_moved;
+    if (!(force[0] > 0.0) && found.rates[own.across] <= found.none) continue;
+    const double speed = found.rates.segment(own.first, own.count).norm();
+    has_moved = put(*found.pressed.places[k], force / per_force, speed, rigid) || has_moved;
   }
   return has_moved;
 }
 
+void ContactCones::hold_over(const Instant& now, double span, RigidRows& rigid) {
+  if (!condense(now)) return;
+  const Outcome found = solve(now, span, 1.0, rigid);
+  for (std::size_t k = 0; k < found.pressed.places.size(); ++k) {
+    const Place& place = *found.pressed.places[k];
+    const ImpactSlip& own = found.pressed.slips[k];
+    const double load = found.impulses[own.across] / span;
+    if (!(load > 0.0)) {
+      const bool leaves = found.rates[own.across] > found.none;
+      const int regime = rigid.stands()[static_cast<std::size_t>(place.across)].regime;
+      rigid.put(place.across, {leaves ? 0 : regime, 0.0});
+      for (int m = 1; m <= place.count; ++m) rigid.put(place.across + m, {leaves ? 0 : 1, 0.0});
+      continue;
+    }
+    rigid.put(place.across, {rigid.stands()[static_cast<std::size_t>(place.across)].regime, load});
+    const Vector along = found.impulses.segment(own.first, own.count) / span;
+    const double speed = found.rates.segment(own.first, own.count).norm();
+    const int regime =
+        sticks(place, load, along, speed) ? 1 : loads::ContactFriction::kHeldDirection;
+    for (int m = 0; m < place.count; ++m) rigid.put(place.across + 1 + m, {regime, along[m]});
+  }
+}
+
+bool ContactCones::sticks(const Place& place, double load, const Vector& along, double speed) {
+  const auto& data = place.law->data();
+  return !(along.norm() > 0.0) || speed <= data.at_rest ||
+         along.norm() < (1.0 - kInside) * data.dynamic_coefficient * load;
+}
+
 bool ContactCones::put(const Place& place, const Vector& force, double speed,
                        RigidRows& rigid) const {
-  const auto& data = place.law->data();
   const Vector along = force.tail(force.size() - 1);
   const int before = rigid.stands()[static_cast<std::size_t>(place.across) + 1].regime;
   if (!(force[0] > 0.0)) {
@@ -161,12 +198,11 @@ bool ContactCones::put(const Place& place, const Vector& force, double speed,
     for (int k = 0; k <= place.count; ++k) has_moved = rigid.put(place.across + k, {}) || has_moved;
     return has_moved;
   }
-  const bool sticks = !(along.norm() > 0.0) || speed <= data.at_rest ||
-                      along.norm() < (1.0 - kInside) * data.dynamic_coefficient * force[0];
-  if (sticks && before == 1) return false;
-  bool has_moved = sticks;
+  const bool is_held = sticks(place, force[0], along, speed);
+  if (is_held && before == 1) return false;
+  bool has_moved = is_held;
   int regime = 1;
-  if (!sticks) {
+  if (!is_held) {
     // Another number of the regime for another direction.
     Vector old(place.count);
     for (int k = 0; k < place.count; ++k) {

@@ -21,6 +21,17 @@ namespace buckens::stepping {
 /// docs/theory/25-contact.md §4.
 class ContactCones {
  public:
+  /// An instant of the iteration.
+  struct Instant {
+    const std::vector<loads::RigidRow>& rows;
+    const dynamics::SoftRows& soft;
+    const std::vector<dynamics::BodyCompliance>& compliance;  ///< of the bodies [m/N]
+    const std::vector<dynamics::BodyMotion>& motions;
+    const std::vector<int>& rows_in_use;
+    const model::RowMemory* memory;
+    double t;
+  };
+
   explicit ContactCones(const model::Model& model);
 
   bool empty() const { return places_.empty(); }
@@ -29,16 +40,16 @@ class ContactCones {
   /// Whether all places stand as their forces and rates ask. @param rows of the iteration
   bool hold(const std::vector<loads::RigidRow>& rows,
             const std::vector<loads::RowStand>& stands) const;
-  /// Decides anew. @param rows and @param soft at the same instant of the iteration
-  /// @param compliance of the bodies [m/N] @param per_force,per_change of the equations:
+  /// Decides anew. @param per_force,per_change of the equations:
   /// `compliance` times per_force is the displacement by a force, times per_change the change of
   /// the rate
   /// @return whether any row stands otherwise
-  bool decide(const std::vector<loads::RigidRow>& rows, const dynamics::SoftRows& soft,
-              const std::vector<dynamics::BodyCompliance>& compliance,
-              const std::vector<dynamics::BodyMotion>& motions, const std::vector<int>& rows_in_use,
-              const model::RowMemory* memory, double t, double per_force, double per_change,
-              RigidRows& rigid);
+  bool decide(const Instant& now, double per_force, double per_change, RigidRows& rigid);
+  /// The same for forces that are to act throughout a span of time, those across included: at its
+  /// end (I1) and (I2) hold, places stand accordingly, and their rows have these forces. Such
+  /// forces always exist, also where at the instant itself none do.
+  /// @param now with the rates of the rows that the end of the span would have without forces
+  void hold_over(const Instant& now, double span, RigidRows& rigid);
 
  private:
   /// One place: its row across and those along, which follow it.
@@ -62,12 +73,24 @@ class ContactCones {
     std::vector<double> force, rate;  // of each push [N], [m/s]
     std::vector<ImpactSlip> slips;
   };
+  /// What (I1) and (I2) make of them.
+  struct Outcome {
+    Pressed pressed;
+    linalg::Vector impulses;  ///< of each push: per_force times its force
+    linalg::Vector rates;     ///< after them
+    double none = 0;          ///< rates up to this are rounding
+  };
   Pressed gather(const std::vector<loads::RigidRow>& rows, const dynamics::SoftRows& soft,
                  const std::vector<loads::RowStand>& stands) const;
+  bool condense(const Instant& now);
+  Outcome solve(const Instant& now, double per_force, double per_change,
+                const RigidRows& rigid) const;
   static Now look(const Place& place, const std::vector<loads::RigidRow>& rows,
                   const std::vector<loads::RowStand>& stands);
   static bool holds(const Place& place, const Now& now, const std::vector<loads::RigidRow>& rows,
                     const std::vector<loads::RowStand>& stands);
+  /// Whether a place sticks, with this force along it and this speed in the end.
+  static bool sticks(const Place& place, double load, const linalg::Vector& along, double speed);
   bool put(const Place& place, const linalg::Vector& force, double speed, RigidRows& rigid) const;
 
   PushAnswers answers_;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "buckens/stepping/cone_impulse.h"
+#include "buckens/stepping/cone_newton.h"
 #include "buckens/stepping/impacts.h"
 #include "buckens/stepping/step_failure.h"
 
@@ -23,6 +24,8 @@ constexpr double kSameRates = 1e-14;
 constexpr double kRoundingOfRates = 1e-10;
 // Answers by this share of the largest answer of all.
 constexpr double kNoAnswerOfPlace = 1e-12;
+constexpr int kMostNewtonRounds = 12;
+constexpr int kSweepsBetween = 20;     // place by place, between Newton's
 constexpr int kMostAgreements = 50;    // rounds of across and along
 constexpr int kMostSlipSweeps = 1000;  // over those along, per round
 constexpr int kMostSweeps = 500;       // place by place
@@ -44,6 +47,12 @@ class Places {
       for (Eigen::Index k = 0; k < slip.count; ++k) place.rows.push_back(slip.first + k);
     }
     for (Place& place : places_) place.answers = D(place.rows, place.rows);
+  }
+
+  std::vector<ConeRows> rows() const {
+    std::vector<ConeRows> out;
+    for (const Place& place : places_) out.push_back({place.rows, place.coefficient});
+    return out;
   }
 
   /// The impulses of (I1) and (I2): all those across with those along, and the other way round.
@@ -166,6 +175,14 @@ Vector solve_together(const Matrix& D, const Vector& b, Eigen::Index num_across,
   if (slips.empty()) return smooth;
   const Places places(D, b, num_across, slips);
   Vector P = smooth;
+  const std::vector<ConeRows> rows = places.rows();
+  for (int round = 0; round < kMostNewtonRounds; ++round) {
+    if (find_by_newton(D, b, rows, P)) return P;
+    // Sweeps bring it on.
+    if (round == 0 || !P.allFinite()) P = smooth;
+    if (places.settle(P, round % 2 == 0 ? 1.0 : 0.5, kSweepsBetween)) return P;
+  }
+  P = smooth;
   if (places.agree(P)) return P;
   P = smooth;
   if (places.settle(P, 1.0, kMostSweeps)) return P;

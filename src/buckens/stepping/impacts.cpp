@@ -404,7 +404,7 @@ void Impacts::land(const Vector& P, const Vector& jump) {
       loss_ += touch.lost_share * P[i] * (touch.approach - 0.5 * jump[i]);
     }
     // Driven off by others, or left with the share of its speed: no longer held.
-    const bool leaves = touch.rate + jump[i] > 1e-9 * size;
+    const bool leaves = touch.rate + jump[i] > std::max(1e-9 * size, weight_returns(touch));
     const bool is_held = touch.stays && !leaves;
     const int rigid_row = model_.loads[laws_[touch.law].load].rigid_row;
     landings_.push_back({rigid_row, is_held ? touch.regime : 0});
@@ -417,9 +417,17 @@ void Impacts::land(const Vector& P, const Vector& jump) {
     // Where it holds, what it does on the motion that weight brings within the rest of the step is
     // no loss; where it slides, all of it rubs over the way between.
     const bool holds = std::abs(after) <= kStopped * std::abs(slip.speed);
-    const double share = holds && slip.speed != 0.0 ? slip.at_impact / slip.speed : 1.0;
+    const double share =
+        holds && slip.speed != 0.0 ? std::clamp(slip.at_impact / slip.speed, 0.0, 1.0) : 1.0;
     loss_ -= 0.5 * share * P[i] * (slip.at_impact + after);
   }
+}
+
+double Impacts::weight_returns(const Touch& touch) const {
+  const model::Load& load = model_.loads[laws_[touch.law].load];
+  const bool is_angle =
+      model_.coordinates[static_cast<std::size_t>(load.coordinate)].law.is_angle();
+  return is_angle ? 0.0 : model_.gravity.norm() * scheme_.h;
 }
 
 /// Whether bodies that stay together stick or slide.

@@ -125,6 +125,9 @@ class Impacts {
   void sum_up(const linalg::Vector& P);
   void move_bodies(const linalg::Vector& P);
   void land(const linalg::Vector& P, const linalg::Vector& jump);
+  /// Speed up to which weight brings back what leaves within a step [m/s]: it does not count as
+  /// leaving, or what has come to rest would rock on by it for ever.
+  double weight_returns(const Touch& touch) const;
   void land_slips(std::size_t touch, bool is_held, const linalg::Vector& jump);
 
   const model::Model& model_;

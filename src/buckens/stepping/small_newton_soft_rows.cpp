@@ -108,10 +108,9 @@ bool SmallNewton::move_rigid_rows(double t, const StepReport& report) {
 
 bool SmallNewton::decide_cones(double t, const StepReport& report) {
   try {
-    if (!cones_.decide(forces_.rigid, soft_, compliance_, end_, rows_in_use_, around_.memory,
-                       t + scheme_.h, scheme_.force, scheme_.end_rate, rigid_)) {
-      return false;
-    }
+    const ContactCones::Instant now{forces_.rigid, soft_,          compliance_,  end_,
+                                    rows_in_use_,  around_.memory, t + scheme_.h};
+    if (!cones_.decide(now, scheme_.force, scheme_.end_rate, rigid_)) return false;
   } catch (const StepFailure&) {
     fail(t, report, "friction of rigid contacts jams, they need a `stiffness` or less `static`");
   }

@@ -37,8 +37,9 @@ struct BodyAcceleration {
 class Accelerations {
  public:
   Accelerations(const model::Model& model, const dynamics::MassMetric& metric,
-                const std::vector<int>& rows_in_use, model::State& state)
-      : model_(model), metric_(metric), rows_in_use_(rows_in_use), state_(state) {}
+                const std::vector<int>& rows_in_use, model::State& state,
+                const std::vector<char>& given)
+      : model_(model), metric_(metric), rows_in_use_(rows_in_use), state_(state), given_(given) {}
 
   void run() {
     start();
@@ -112,6 +113,7 @@ class Accelerations {
                                  soft);
     for (std::size_t k = 0; k < soft.rows.size(); ++k) {
       if (!soft.is_closed[k]) continue;
+      if (!given_.empty() && given_[static_cast<std::size_t>(soft.rigid[k])] != 0) continue;
       const model::Load& load = model_.load_of_rigid_row(soft.rigid[k]);
       rows_.push_back(soft.rows[k]);
       const auto& law = static_cast<const loads::RigidLaw&>(*load.element);
@@ -234,6 +236,7 @@ class Accelerations {
   const dynamics::MassMetric& metric_;
   const std::vector<int>& rows_in_use_;
   model::State& state_;
+  const std::vector<char>& given_;  // rigid rows whose forces are known
   dynamics::Constraints constraints_;
   Vector lambda_;
   std::vector<double> bias_;
@@ -248,8 +251,9 @@ class Accelerations {
 }  // namespace
 
 void compute_accelerations(const model::Model& model, const dynamics::MassMetric& metric,
-                           const std::vector<int>& rows_in_use, model::State& state) {
-  Accelerations(model, metric, rows_in_use, state).run();
+                           const std::vector<int>& rows_in_use, model::State& state,
+                           const std::vector<char>& given) {
+  Accelerations(model, metric, rows_in_use, state, given).run();
 }
 
 }  // namespace buckens::analysis

@@ -42,8 +42,9 @@ Vector deformation(const body::Body& body, const model::BodyState& s,
 }  // namespace
 
 void settle_accelerations(const model::Model& model, const dynamics::MassMetric& metric,
-                          const std::vector<int>& rows_in_use, model::State& state) {
-  compute_accelerations(model, metric, rows_in_use, state);
+                          const std::vector<int>& rows_in_use, model::State& state,
+                          const std::vector<char>& given) {
+  compute_accelerations(model, metric, rows_in_use, state, given);
   if (std::none_of(model.bodies.begin(), model.bodies.end(), is_quasi_static)) return;
   std::size_t restless = 0;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -67,7 +68,7 @@ void settle_accelerations(const model::Model& model, const dynamics::MassMetric&
     }
     assemble_positions(model, metric, state);
     project_velocities(model, metric, state);
-    compute_accelerations(model, metric, rows_in_use, state);
+    compute_accelerations(model, metric, rows_in_use, state, given);
     if (change <= kShapeSettled) return;
   }
   throw NumericalError(fmt::format(

@@ -16,8 +16,10 @@ namespace buckens::analysis {
 /// velocities of the frames that close the joints again, until nothing changes [Popp, Dirr and
 /// Jahnke]. Without quasi-static bodies only accelerations are computed.
 /// @param rows_in_use independent rows of λ
+/// @param given per rigid row: acts with the force that it has, closed or not; empty: none
 /// @throws NumericalError naming a body whose deformation does not converge
 void settle_accelerations(const model::Model& model, const dynamics::MassMetric& metric,
-                          const std::vector<int>& rows_in_use, model::State& state);
+                          const std::vector<int>& rows_in_use, model::State& state,
+                          const std::vector<char>& given = {});
 
 }  // namespace buckens::analysis

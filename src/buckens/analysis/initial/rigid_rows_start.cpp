@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "buckens/analysis/initial/quasi_static_start.h"
+#include "buckens/analysis/initial/rough_contacts.h"
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/forces.h"
 #include "buckens/loads/contact_friction.h"
-#include "buckens/stepping/contact_cones.h"
 
 namespace buckens::analysis {
 
@@ -22,8 +22,6 @@ constexpr int kMostRowRounds = 450;
 // they do not fall any more.
 constexpr double kSameMotion = 1e-13;
 constexpr double kRoundingOfMotion = 1e-9;
-// What friction would stop within this time sticks [s].
-constexpr double kAtOnce = 1e-6;
 
 /// The end of the list if there is none.
 auto find_rough_contact(const model::Model& model) {
@@ -31,51 +29,6 @@ auto find_rough_contact(const model::Model& model) {
     return dynamic_cast<const loads::ContactFriction*>(load.element.get()) != nullptr;
   });
 }
-
-/// Rigid contacts with friction, whose stands are decided together.
-class RoughContacts {
- public:
-  RoughContacts(const model::Model& model, const std::vector<int>& rows_in_use)
-      : model_(model), rows_in_use_(rows_in_use), cones_(model), rigid_(model) {
-    for (const body::Body& body : model.bodies) {
-      compliance_.push_back({dynamics::frame_mobility(body, body.J0), nullptr});
-    }
-  }
-
-  bool owns(int rigid_row) const { return cones_.rows()[static_cast<std::size_t>(rigid_row)] != 0; }
-
-  /// @return whether any stands otherwise now
-  bool decide(const dynamics::Forces& forces, model::State& state) {
-    rigid_.start(state.memory);
-    if (cones_.hold(forces.rigid, rigid_.stands())) return false;
-    const auto motions = dynamics::motions_of(model_, state);
-    dynamics::evaluate_soft_rows(model_, motions, state.t, dynamics::circumstances_of(state),
-                                 soft_);
-    if (!cones_.decide(forces.rigid, soft_, compliance_, motions, rows_in_use_, &state.memory,
-                       state.t, 1.0, kAtOnce, rigid_)) {
-      return false;
-    }
-    bool has_moved = false;
-    for (const model::Load& load : model_.loads) {
-      if (load.rigid_row < 0 || !owns(load.rigid_row)) continue;
-      const loads::RowStand& stand = rigid_.stands()[static_cast<std::size_t>(load.rigid_row)];
-      const int regime = std::min(stand.regime, loads::ContactFriction::kHeldDirection - 1);
-      double* const memory = state.memory.laws.data() + load.first_state;
-      has_moved = has_moved || static_cast<int>(memory[0]) != regime;
-      memory[0] = regime;
-      memory[1] = stand.force;
-    }
-    return has_moved;
-  }
-
- private:
-  const model::Model& model_;
-  const std::vector<int>& rows_in_use_;
-  stepping::ContactCones cones_;
-  stepping::RigidRows rigid_;
-  std::vector<dynamics::BodyCompliance> compliance_;
-  dynamics::SoftRows soft_;
-};
 
 /// Moves rows to the stands that follow. @return names of the loads that moved
 /// @param released per rigid row: what has once let go here is not closed again, since at a rate of
@@ -216,8 +169,13 @@ void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& me
     const model::State start = state;
     if (settle_in_rounds(model, metric, rows_in_use, nullptr, state, unrest)) return;
     state = start;
-    RoughContacts contacts(model, rows_in_use);
+    RoughContacts contacts(model, metric, rows_in_use);
     if (settle_in_rounds(model, metric, rows_in_use, &contacts, state, unrest)) return;
+    if (start.last_step > 0.0) {
+      state = start;
+      contacts.hold_over(start.last_step, state);
+      return;
+    }
   }
   if (unrest.moved.empty()) {
     throw NumericalError(fmt::format(

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/analysis/initial/rough_contacts.h"
+
+#include <algorithm>
+
+#include "buckens/analysis/initial/quasi_static_start.h"
+
+namespace buckens::analysis {
+
+namespace {
+
+// What friction would stop within this time sticks [s].
+constexpr double kAtOnce = 1e-6;
+
+}  // namespace
+
+RoughContacts::RoughContacts(const model::Model& model, const dynamics::MassMetric& metric,
+                             const std::vector<int>& rows_in_use)
+    : model_(model), metric_(metric), rows_in_use_(rows_in_use), cones_(model), rigid_(model) {
+  for (const body::Body& body : model.bodies) {
+    compliance_.push_back({dynamics::frame_mobility(body, body.J0), nullptr});
+  }
+}
+
+bool RoughContacts::decide(const dynamics::Forces& forces, model::State& state) {
+  rigid_.start(state.memory);
+  if (cones_.hold(forces.rigid, rigid_.stands())) return false;
+  const auto motions = dynamics::motions_of(model_, state);
+  dynamics::evaluate_soft_rows(model_, motions, state.t, dynamics::circumstances_of(state), soft_);
+  const stepping::ContactCones::Instant now{forces.rigid, soft_,         compliance_, motions,
+                                            rows_in_use_, &state.memory, state.t};
+  if (!cones_.decide(now, 1.0, kAtOnce, rigid_)) return false;
+  const linalg::Vector before = state.memory.laws;
+  write(state);
+  return std::any_of(model_.loads.begin(), model_.loads.end(), [&](const model::Load& load) {
+    return load.rigid_row >= 0 && owns(load.rigid_row) &&
+           state.memory.laws[load.first_state] != before[load.first_state];
+  });
+}
+
+void RoughContacts::write(model::State& state) const {
+  for (const model::Load& load : model_.loads) {
+    if (load.rigid_row < 0 || !owns(load.rigid_row)) continue;
+    const loads::RowStand& stand = rigid_.stands()[static_cast<std::size_t>(load.rigid_row)];
+    // A direction that is held is one within a step.
+    state.memory.laws[load.first_state] =
+        std::min(stand.regime, loads::ContactFriction::kHeldDirection - 1);
+    state.memory.laws[load.first_state + 1] = stand.force;
+  }
+}
+
+void RoughContacts::hold_over(double span, model::State& state) {
+  rigid_.start(state.memory);
+  const auto motions = dynamics::motions_of(model_, state);
+  dynamics::evaluate_soft_rows(model_, motions, state.t, dynamics::circumstances_of(state), soft_);
+  // Without their forces first.
+  for (const model::Load& load : model_.loads) {
+    if (load.rigid_row < 0 || !owns(load.rigid_row)) continue;
+    state.memory.laws[load.first_state] = state.memory.laws[load.first_state + 1] = 0.0;
+  }
+  settle_accelerations(model_, metric_, rows_in_use_, state);
+  dynamics::Forces forces;
+  dynamics::evaluate_forces(model_, motions, state.t, dynamics::circumstances_of(state), forces);
+  foresee(motions, state, span, forces.rigid);
+  for (std::size_t k = 0; k < forces.rigid.size(); ++k) {
+    if (owns(static_cast<int>(k))) rigid_.put(static_cast<int>(k), {rigid_.stands()[k].regime, 0});
+  }
+  cones_.hold_over(
+      {forces.rigid, soft_, compliance_, motions, rows_in_use_, &state.memory, state.t}, span,
+      rigid_);
+  write(state);
+  settle_accelerations(model_, metric_, rows_in_use_, state, cones_.rows());
+}
+
+void RoughContacts::foresee(const std::vector<dynamics::BodyMotion>& motions,
+                            const model::State& state, double span,
+                            std::vector<loads::RigidRow>& rows) const {
+  for (std::size_t k = 0; k < soft_.rows.size(); ++k) {
+    const int rigid_row = soft_.rigid[k];
+    if (rigid_row < 0 || !owns(rigid_row)) continue;
+    const model::Load& load = model_.load_of_rigid_row(rigid_row);
+    const auto first = dynamics::evaluate_marker(model_, load.first, motions);
+    const auto second = dynamics::evaluate_marker(model_, load.second, motions);
+    const joints::JointCoordinate& law =
+        model_.coordinates[static_cast<std::size_t>(load.coordinate)].law;
+    double rate = 0.0;
+    double acceleration =
+        law.bias(first.motion, second.motion, dynamics::evaluate_bias(model_, load.first, motions),
+                 dynamics::evaluate_bias(model_, load.second, motions));
+    for (const dynamics::BodyRow* part : soft_.rows[k].parts()) {
+      if (part->body == model::kGround) continue;
+      const auto b = static_cast<std::size_t>(part->body);
+      const model::BodyState& s = state.bodies[b];
+      Eigen::Matrix<double, 6, 1> change;
+      change << s.w_dot, s.v_dot;
+      const body::Body& body = model_.bodies[b];
+      const Eigen::VectorXd y = body.is_flexible() ? body.row_values(s.d_ddot) : Eigen::VectorXd();
+      rate += part->rate(motions[b]);
+      acceleration += part->change(change, y);
+    }
+    loads::RigidRow& row = rows[static_cast<std::size_t>(rigid_row)];
+    row.slip = rate + span * acceleration;
+    row.is_closed = false;
+    row.given = 0.0;
+  }
+}
+
+}  // namespace buckens::analysis

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "buckens/linalg/matrix_types.h"
+
+namespace buckens::stepping {
+
+/// Rows of one place where bodies touch: across first, then along.
+struct ConeRows {
+  std::vector<Eigen::Index> rows;
+  double coefficient = 0;  ///< μ
+};
+
+/// Newton's method on (I1) and (I2) of all places at once, by the projections of Alart and Curnier:
+/// a few solutions of a linear system where it converges, which it need not.
+/// @param D of all rows, positive semidefinite, @param P start and result
+/// @return whether P satisfies them but for rounding
+bool find_by_newton(const linalg::Matrix& D, const linalg::Vector& b,
+                    const std::vector<ConeRows>& places, linalg::Vector& P);
+
+}  // namespace buckens::stepping
