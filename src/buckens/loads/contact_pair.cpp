@@ -42,14 +42,13 @@ const char* to_string(ShapeKind kind) {
 
 std::span<const ContactPair::Kinds> ContactPair::all() {
   using enum ContactShape::Kind;
-  static constexpr Kinds kAll[] = {{plane, sphere}, {sphere, sphere},     {socket, sphere},
-                                   {bore, sphere},  {capsule, sphere},    {cylinder, sphere},
-                                   {box, sphere},   {plane, capsule},     {plane, cylinder},
-                                   {plane, box},    {bore, cylinder},     {capsule, capsule},
-                                   {box, capsule},  {cylinder, capsule},  {box, box},
-                                   {box, cylinder}, {cylinder, cylinder}, {mesh, sphere},
-                                   {mesh, capsule}, {mesh, cylinder},     {mesh, box},
-                                   {plane, mesh},   {mesh, mesh}};
+  static constexpr Kinds kAll[] = {
+      {plane, sphere},      {sphere, sphere},    {socket, sphere}, {bore, sphere},
+      {capsule, sphere},    {cylinder, sphere},  {box, sphere},    {plane, capsule},
+      {plane, cylinder},    {plane, box},        {bore, cylinder}, {capsule, capsule},
+      {box, capsule},       {cylinder, capsule}, {box, box},       {box, cylinder},
+      {cylinder, cylinder}, {mesh, sphere},      {mesh, capsule},  {mesh, cylinder},
+      {mesh, box},          {plane, mesh},       {mesh, mesh}};
   return kAll;
 }
 

@@ -21,9 +21,8 @@ class Cutter {
   Cutter(double spacing, std::vector<SurfacePoints::Point>& out) : spacing_(spacing), out_(out) {}
 
   void cut(const CurvedFacet& facet, const std::array<bool, 3>& is_sharp) {
-    const double area = 0.5 * (facet.corner[1] - facet.corner[0])
-                                  .cross(facet.corner[2] - facet.corner[0])
-                                  .norm();
+    const double area =
+        0.5 * (facet.corner[1] - facet.corner[0]).cross(facet.corner[2] - facet.corner[0]).norm();
     waiting_.assign(1, {{Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()}, area});
     while (!waiting_.empty()) {
       const auto [piece, own] = waiting_.back();

@@ -23,8 +23,8 @@ class SurfacePoints {
   /// @param is_sharp whether an edge of the surface ends at the edge of a facet from corner k to
   /// the next; pieces there have points next to the edge, others one in their middle
   /// @param spacing [m]
-  SurfacePoints(std::span<const CurvedFacet> facets,
-                std::span<const std::array<bool, 3>> is_sharp, double spacing);
+  SurfacePoints(std::span<const CurvedFacet> facets, std::span<const std::array<bool, 3>> is_sharp,
+                double spacing);
 
   const std::vector<Point>& points() const { return points_; }
   const BoxTree& tree() const { return tree_; }

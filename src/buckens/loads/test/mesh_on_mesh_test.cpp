@@ -162,7 +162,8 @@ TEST(MeshOnMesh, ForcesAreTheDerivativeOfTheEnergyAnywhere) {
     ++tried;
     // Differences over 2e-7 m of energies of 1e-7 and more, and points that the difference brings
     // from one nearest face to the next.
-    EXPECT_LE((F - slope).norm(), 1e-4 * F.norm()) << k << "\n" << F.transpose() << "\n"
+    EXPECT_LE((F - slope).norm(), 1e-4 * F.norm()) << k << "\n"
+                                                   << F.transpose() << "\n"
                                                    << slope.transpose();
   }
   EXPECT_GT(tried, 45);
