@@ -166,7 +166,7 @@ TEST(JointSet, DerivesAsTheModelDoes) {
   EXPECT_EQ(count, model.num_constraint_rows());
 }
 
-loads::FrictionData pin() {
+loads::FrictionData rubbing_pin() {
   loads::FrictionData out;
   out.static_coefficient = 0.3;
   out.dynamic_coefficient = 0.2;
@@ -195,17 +195,17 @@ model::Model with_laws_on_joints() {
     m.add_load(std::make_unique<loads::SpringDamper>(k, 0.1, 0.2, std::nullopt), on_rigid, on_rod);
   };
   m.add_joint(JointType::revolute, test::Mechanism::ground({0.1, 0, 0}), on_rigid, axis);
-  m.add_law(std::make_unique<loads::JointFriction>(pin(), axis), angle);
+  m.add_law(std::make_unique<loads::JointFriction>(rubbing_pin(), axis), angle);
   spring(3.0);
   m.add_law(std::make_unique<loads::CoordinateSpring>(2.0, 0.1, 0.0), angle);
   m.add_joint(JointType::revolute, m.node_marker(rod, 0), on_rigid, axis);
-  m.add_law(std::make_unique<loads::RigidFriction>(pin(), axis), angle);
-  m.add_law(
-      std::make_unique<loads::BristleFriction>(pin(), loads::BristleData{5.0, 0.1, 0.5}, axis),
-      angle);
+  m.add_law(std::make_unique<loads::RigidFriction>(rubbing_pin(), axis), angle);
+  m.add_law(std::make_unique<loads::BristleFriction>(rubbing_pin(),
+                                                     loads::BristleData{5.0, 0.1, 0.5}, axis),
+            angle);
   spring(4.0);
   m.add_joint(JointType::spherical, on_rod, test::Mechanism::ground({1, 0, 1}));
-  m.add_law_of_joint(std::make_unique<loads::BallFriction>(pin(), std::nullopt));
+  m.add_law_of_joint(std::make_unique<loads::BallFriction>(rubbing_pin(), std::nullopt));
   return m.take();
 }
 

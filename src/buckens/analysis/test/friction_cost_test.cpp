@@ -2,6 +2,7 @@
 // What friction in all joints adds to the steps of a flexible slider-crank, in counts.
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -33,7 +34,7 @@ std::unique_ptr<loads::JointFriction> friction(double radius, double slip, const
 model::Model slider_crank(bool rubs) {
   Mechanism m(spatial::Plane::xy);
   m.set_length(0.45);
-  const double A = M_PI * 0.004 * 0.004;
+  const double A = std::numbers::pi * 0.004 * 0.004;
   test::BeamConstants rod;
   rod.L = 0.3;
   rod.rhoA = 7870.0 * A;
