@@ -10,17 +10,27 @@ import pytest
 G = 9.81
 
 
-@pytest.mark.parametrize("friction", [0.585, 0.6])
-def test_a_cylinder_near_its_limit_stands(sensors, friction):
-    """On 30 degrees, whose tangent is 0.57735: how four places share the load decides which of them hold."""
-    out = sensors(f"""
+def cylinder(friction, duration):
+    return f"""
 buckens: 1
 gravity: [{G / 2}, 0, {-G * math.sqrt(3) / 2}]
 bodies: {{c: {{rigid: {{mass: 2 kg, inertia: [6.7e-3, 6.7e-3, 10e-3]}}, at: {{position: [0, 0, 0.05]}}}}}}
 loads: {{c: {{contact: {{between: [ground, c], shapes: [{{plane: {{}}}}, {{cylinder: {{radius: 0.1, length: 0.1}}}}], static: {friction}}}}}}}
-simulation: {{duration: 0.2 s, step: 1 ms}}
+simulation: {{duration: {duration} s, step: 1 ms}}
 output: {{every: 10 ms, sensors: {{p: {{position: c}}, v: {{velocity: c}}, f: {{contact: c}}, balance: {{energy: balance}}}}}}
-""")
+"""
+
+
+def test_steps_that_no_combination_satisfies_are_told(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text(cylinder(0.585, 0.01))
+    buckens("run", "model.yaml", "-o", "out").must(0, "no combination of sticking, sliding and letting go", "look at the energy balance")
+    assert '"undecided_steps"' in (tmp_path / "out" / "summary.json").read_text()
+
+
+@pytest.mark.parametrize("friction", [0.585, 0.6])
+def test_a_cylinder_near_its_limit_stands(sensors, friction):
+    """On 30 degrees, whose tangent is 0.57735: how four places share the load decides which of them hold."""
+    out = sensors(cylinder(friction, 0.2))
     # The first step puts it down, with a slip v of a fraction of g h, which friction stops within v^2/(2 (mu cos - sin) g).
     braking = friction * G * math.sqrt(3) / 2 - G / 2
     assert out["p.x"].max() < (0.25 * G * 1e-3) ** 2 / (2 * braking) + 1e-4 and numpy.abs(out["p.z"] - 0.05).max() < 1e-12
@@ -49,13 +59,15 @@ output: {{every: 10 ms, sensors: {{p: {{position: box}}, v: {{velocity: box}}, w
 """
 
 
-# 43 and 15: impulses took hundreds of thousands of sweeps; 18: rocked on by g h, with an impact in nearly every step.
-@pytest.mark.parametrize("seed, duration", [(43, 0.8), (15, 0.8), (18, 0.6)])
+# 57: no combination of sticking and sliding satisfies all corners in a step; 43 and 15: impulses took hundreds of
+# thousands of sweeps; 18: rocked on by g h, with an impact in nearly every step.
+@pytest.mark.parametrize("seed, duration", [(57, 0.6), (43, 0.8), (15, 0.8), (18, 0.6)])
 def test_thrown_boxes_go_on(sensors, seed, duration):
     sides, friction, text = thrown(seed, duration)
     out = sensors(text)
     assert out["t"][-1] == pytest.approx(duration)
-    assert out["c.gap"].min() > -G * 1e-6
+    # A record may fall on the end of a step with a blow, whose places are still as deep as they went in it.
+    assert out["c.gap"].min() > -4 * 1e-3 and out["c.gap"][-1] > -G * 1e-6
     # Several places share what they hold: all of them together stay within the cone.
     assert numpy.all(out["c.friction"] <= friction * out["c.normal"] * (1 + 1e-6) + 1e-9)
     # Errors of first order in the step, where it strikes.

@@ -90,6 +90,14 @@ class ConeEquations {
   Matrix A;  ///< ∂F/∂P
 };
 
+/// Places that are not pressed have no impulses but rounding: none.
+void let_go(const std::vector<ConeRows>& places, Vector& P) {
+  for (const ConeRows& place : places) {
+    if (P[place.rows.front()] > 0.0) continue;
+    for (const Eigen::Index row : place.rows) P[row] = 0.0;
+  }
+}
+
 }  // namespace
 
 bool find_by_newton(const Matrix& D, const Vector& b, const std::vector<ConeRows>& places,
@@ -106,6 +114,7 @@ bool find_by_newton(const Matrix& D, const Vector& b, const std::vector<ConeRows
     if (!(open < HUGE_VAL)) return false;
     // Rounding is reached where it falls no further.
     if (open <= kSolved * size || (open <= 100.0 * kSolved * size && open >= 0.5 * before)) {
+      let_go(places, P);
       return true;
     }
     idle = open < 0.5 * before ? 0 : idle + 1;

@@ -149,6 +149,7 @@ void SmallNewton::keep_shapes_in_rates(const std::vector<BodyStep>& bodies, doub
 }
 
 void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
+  has_accepted_stands_ = false;
   const bool same = scheme_.weight == 1.0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     bodies[b].motion_at_end(scheme_, answers_[b], end_[b]);

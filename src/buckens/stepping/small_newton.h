@@ -43,6 +43,11 @@ class SmallNewton {
   const dynamics::Circumstances& around() const { return around_; }
   /// Whether rigid rows stand otherwise than at the start of the step.
   bool rigid_rows_changed() const { return rigid_.have_changed(); }
+  /// Whether rigid rows that have moved too often in a step stay as they stand then, in place of a
+  /// failure: near its limit a set may admit a force or not by rounding.
+  void accept_last_stands(bool accepts) { accepts_last_stands_ = accepts; }
+  /// Whether it has done so in this step.
+  bool has_accepted_stands() const { return has_accepted_stands_; }
   /// Condenses the joints at the predicted configuration held in `bodies`.
   /// @throws NumericalError naming joints if their equations have become dependent
   void prepare(std::vector<BodyStep>& bodies, double t);
@@ -119,8 +124,9 @@ class SmallNewton {
   bool move_rigid_rows(double t, const StepReport& report);
   /// Decides anew how rigid contacts with friction stand. @return whether any stands otherwise
   bool decide_cones(double t, const StepReport& report);
-  /// @throws StepFailure if rigid rows have moved too often in this step
-  void limit_moves(double t, const StepReport& report) const;
+  /// Whether rigid rows may move on in this step.
+  /// @throws StepFailure if they have moved too often, unless the last stands are accepted
+  bool may_move(double t, const StepReport& report);
   /// Whether the iteration goes on for so long that friction may turn to and fro.
   bool is_restless(int iterations) const {
     constexpr int kRestless = 10;
@@ -169,6 +175,7 @@ class SmallNewton {
   RigidRows rigid_;
   ContactCones cones_;
   HeldLaws held_;
+  bool accepts_last_stands_ = false, has_accepted_stands_ = false;
   int num_selections_ = 0;
   std::unique_ptr<dynamics::MultiplierCondensation> condensation_;
   std::vector<double> pivoted_;  // for a condensation not yet made, see visit_saved()

@@ -97,30 +97,32 @@ const loads::RigidRow* SmallNewton::closed_row(std::size_t soft) const {
 }
 
 bool SmallNewton::move_rigid_rows(double t, const StepReport& report) {
-  if (rigid_.empty()) return false;
+  if (rigid_.empty() || !may_move(t, report)) return false;
   // Friction that is out of its cone presses others off their stops that are pressed on in the end.
   const bool are_held = cones_.empty() || cones_.hold(forces_.rigid, rigid_.stands());
   if (!are_held && decide_cones(t, report)) return true;
-  if (!rigid_.move(forces_.rigid, cones_.rows())) return false;
-  limit_moves(t, report);
-  return true;
+  return rigid_.move(forces_.rigid, cones_.rows());
 }
 
 bool SmallNewton::decide_cones(double t, const StepReport& report) {
+  if (!may_move(t, report)) return false;
   try {
     const ContactCones::Instant now{forces_.rigid, soft_,          compliance_,  end_,
                                     rows_in_use_,  around_.memory, t + scheme_.h};
     if (!cones_.decide(now, scheme_.force, scheme_.end_rate, rigid_)) return false;
   } catch (const StepFailure&) {
+    has_accepted_stands_ = accepts_last_stands_;
+    if (accepts_last_stands_) return false;
     fail(t, report, "friction of rigid contacts jams, they need a `stiffness` or less `static`");
   }
   rigid_.count_move();
-  limit_moves(t, report);
   return true;
 }
 
-void SmallNewton::limit_moves(double t, const StepReport& report) const {
-  if (rigid_.num_moves() <= kMostMoves) return;
+bool SmallNewton::may_move(double t, const StepReport& report) {
+  if (rigid_.num_moves() <= kMostMoves) return true;
+  has_accepted_stands_ = accepts_last_stands_;
+  if (accepts_last_stands_) return false;
   fail(t, report,
        "no combination of holding and releasing satisfies all rigid stops and rigid friction");
 }

@@ -63,6 +63,9 @@ struct StepReport {
   /// Whether accelerations have jumped, so that they have to be found anew at the end of the step:
   /// by impacts, or by rigid rows that now hold otherwise.
   bool must_settle = false;
+  /// Whether no combination of holding and releasing satisfied all rigid rows, and the last one was
+  /// taken.
+  bool has_undecided_rows = false;
 };
 
 }  // namespace buckens::stepping

@@ -426,6 +426,7 @@ StepReport Stepper::take_general_step(const model::State& state) {
   }
   form_next_state(state);
   report.must_settle = newton_->rigid_rows_changed();
+  report.has_undecided_rows = newton_->has_accepted_stands();
   take_impacts(report);
   has_stepped_ = true;
   return report;

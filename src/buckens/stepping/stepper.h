@@ -62,6 +62,9 @@ class Stepper {
   /// The same into `after`, which may be `before`; its buffers are reused.
   StepReport step(const model::State& before, model::State& after);
 
+  /// For the following steps, see SmallNewton::accept_last_stands().
+  void accept_last_stands(bool accepts) { newton_->accept_last_stands(accepts); }
+
   /// Threads for the following steps, ≥ 1.
   void use_threads(int threads);
 

@@ -55,10 +55,12 @@ StepReport TimeMarch::advance(const model::State& before, model::State& after,
   if (error_ && !has_begun_) error_->start(before);
   has_begun_ = true;
   first_failure_.clear();
+  bool accepts_last_stands = false;  // of rigid rows, where no shorter step helps
   rejected_ratio_ = 0;
   spread_ = std::max(next_step(), kFade * spread_);
   for (;;) {
     Stepper& stepper = ladder_.rung(k_);
+    stepper.accept_last_stands(accepts_last_stands);
     StepReport report;
     try {
       report = stepper.step(before, after);
@@ -68,7 +70,13 @@ StepReport TimeMarch::advance(const model::State& before, model::State& after,
         first_failure_ = failure.what();
         first_failed_ = k_;
       }
-      shorten(1);
+      const bool may_accept = has_rigid_rows_ && !accepts_last_stands && k_ >= shortest();
+      if (may_accept) {
+        accepts_last_stands = true;
+        k_ = first_failed_;
+      } else {
+        shorten(1);
+      }
       continue;
     }
     // No smooth curve leads through an impact or a row that lets go; its instant is found within

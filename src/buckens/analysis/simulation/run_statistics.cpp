@@ -13,6 +13,15 @@ namespace buckens::analysis {
 namespace {
 // Energies below this share of weight times size are rounding of a mechanism that stands still.
 constexpr double kNoEnergy = 1e-12;
+
+std::string describe_undecided(long undecided, long steps) {
+  return fmt::format(
+      "in {} of {} steps no combination of sticking, sliding and letting go satisfied all places "
+      "of "
+      "rigid contacts and stops, and the last one was taken; look at the energy balance, and use a "
+      "smaller step or a `stiffness` if it is open",
+      undecided, steps);
+}
 }  // namespace
 
 RunStatistics::RunStatistics(const model::BuiltModel& built)
@@ -36,6 +45,7 @@ void RunStatistics::add_step(const stepping::StepReport& report, const model::St
   iterations_ += report.newton_iterations;
   most_iterations_ = std::max<long>(most_iterations_, report.newton_iterations);
   if (report.large_solve_rounds > 1) ++repeated_solves_;
+  if (report.has_undecided_rows) ++undecided_steps_;
   impacts_ += report.impacts;
   impact_loss_ += report.impact_loss;
   joints_.add_step(report, state);
@@ -186,6 +196,10 @@ void RunStatistics::fill(const stepping::TimeMarch& march, results::RunSummary& 
   if (impacts_ > 0) {
     summary.measures.emplace_back("impacts", static_cast<double>(impacts_));
     summary.measures.emplace_back("impact_loss", impact_loss_);
+  }
+  if (undecided_steps_ > 0) {
+    summary.measures.emplace_back("undecided_steps", static_cast<double>(undecided_steps_));
+    summary.warnings.push_back(describe_undecided(undecided_steps_, steps_));
   }
   doubt_meshes(built_.description, summary);
   for (const model::WholeBody& whole : built_.model.wholes)

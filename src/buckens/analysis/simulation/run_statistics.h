@@ -50,6 +50,7 @@ class RunStatistics {
   long iterations_ = 0;
   long most_iterations_ = 0;
   long repeated_solves_ = 0;  // steps with more than one large solve
+  long undecided_steps_ = 0;  // that took the last stands of rigid rows
   long impacts_ = 0;
   double impact_loss_ = 0;  // [J]
   results::Residuals residuals_;
