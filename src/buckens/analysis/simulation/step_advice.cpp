@@ -2,6 +2,7 @@
 #include "buckens/analysis/simulation/step_advice.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -140,6 +141,12 @@ ExcitedBand excited_band(const model::Model& model, const model::WholeBody& whol
   return band_of(modes, share);
 }
 
+double two_digits_below(double value) {
+  const double digit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  // What is two digits but for rounding stays.
+  return digit * std::floor(value / digit * (1.0 + 1e-12));
+}
+
 std::string judge_step(const std::string& body, const ExcitedBand& band, double h, double every) {
   double lowest = 0;  // of the excited vibrations that records can show
   double highest = 0;
@@ -154,12 +161,12 @@ std::string judge_step(const std::string& body, const ExcitedBand& band, double 
     return fmt::format(
         "step {:.3g} s is too long for every elastic vibration of body \"{}\" (lowest {:.4g} Hz; "
         "followed up to {:.4g} Hz): it is damped, not followed; use a step of {:.2g} s",
-        h, body, lowest / kTurn, followed, kResolved / lowest);
+        h, body, lowest / kTurn, followed, two_digits_below(kResolved / lowest));
   }
   return fmt::format(
       "step {:.3g} s follows vibrations of body \"{}\" up to {:.4g} Hz; those excited above that "
       "the records could show, up to {:.4g} Hz, are damped; use a step of {:.2g} s if they matter",
-      h, body, followed, highest / kTurn, kResolved / highest);
+      h, body, followed, highest / kTurn, two_digits_below(kResolved / highest));
 }
 
 std::string judge_frequency(const std::string& body, double omega) {
