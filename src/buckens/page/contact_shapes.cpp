@@ -9,7 +9,11 @@
 
 namespace buckens::page {
 
+namespace {
+
 using Json = nlohmann::ordered_json;
+
+}  // namespace
 
 Json side_json(const results::GeometrySide& side) {
   return {

@@ -54,7 +54,7 @@ Matrix null_space(const Matrix& A, double tolerance) {
 
 SystemPencil::SystemPencil(const model::Model& model, const model::State& state,
                            const RestTangent& tangent)
-    : model_(model), state_(state), tangent_(tangent) {
+    : model_(model), tangent_(tangent) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const body::Body& body = model.bodies[b];
     const RestBody& place = tangent.bodies[b];

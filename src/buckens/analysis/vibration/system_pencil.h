@@ -64,7 +64,6 @@ class SystemPencil {
   linalg::Matrix seen(const linalg::Matrix& X) const;
 
   const model::Model& model_;
-  const model::State& state_;
   const RestTangent& tangent_;
   std::vector<Block> blocks_;
   std::vector<int> first_;
