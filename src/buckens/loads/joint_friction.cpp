@@ -94,10 +94,11 @@ void JointFriction::append_slopes(const Sight& sight, std::vector<spatial::Wrenc
 
 namespace {
 
-/// dz/ds of bristles for z > 0 where s grows. @param sliding deflection f_s/σ₀ at which they slide
+/// dz/ds of bristles where s grows. @param sliding deflection f_s/σ₀ at which they slide
 double slope_of_bristles(double z, double sliding, double elastic_share) {
   const double filled = z / sliding;
-  if (filled <= 0.0) return 1.0;
+  // Bent against the way: elastic, but for LuGre's law itself, where they straighten faster.
+  if (filled <= 0.0) return elastic_share > 0.0 ? 1.0 : 1.0 - filled;
   double alpha = 1.0;
   if (elastic_share > 0.0) {
     if (filled <= elastic_share) return 1.0;
