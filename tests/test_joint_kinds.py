@@ -49,6 +49,49 @@ def test_a_cross_joint_turns_the_second_shaft_unevenly(sensors, bend):
     assert numpy.abs(second - first).max() == pytest.approx(lead, rel=3e-3)
 
 
+# A shaft between two crosses: bent back by the second one, so that the outer shafts are parallel, or bent on.
+DOUBLE = """
+buckens: 1
+parameters: {b: BEND, c: "FAR"}
+bodies:
+  input: {rigid: {mass: 1 kg, inertia: [0.01, 0.01, 0.01]}}
+  shaft: {rigid: {mass: 1 kg, inertia: [0.01, 0.01, 0.01]}, markers: {end: {position: ["0.3*cos(b)", "0.3*sin(b)", 0]}}}
+  output: {rigid: {mass: 1 kg, inertia: [0.01, 0.01, 0.01]}, at: {position: ["0.3*cos(b)", "0.3*sin(b)", 0]}}
+joints:
+  bearing: {revolute: {between: [ground, input], axis: [1, 0, 0]}}
+  motor: {prescribed-rotation: {between: [ground, input], axis: [1, 0, 0], speed: 10 rad/s}}
+  near: {universal: {between: [input, shaft], axis: [0, 1, 0], second-axis: [0, 0, 1]}}
+  cross: {universal: {between: [shaft/end, output], FORKS}}
+  far: {cylindrical: {between: [{ground: ["0.3*cos(b)", "0.3*sin(b)", 0]}, output], axis: ["cos(c)", "sin(c)", 0]}}
+initial:
+  bodies:
+    input: {angular-velocity: [10, 0, 0]}
+    shaft: {angular-velocity: ["10/cos(b)*cos(b)", "10/cos(b)*sin(b)", 0]}
+    output: {angular-velocity: ["10*RATIO*cos(c)", "10*RATIO*sin(c)", 0]}
+simulation: {duration: 0.7 s, step: 1 ms}
+output: {every: 5 ms, sensors: {one: {joint-coordinate: bearing}, two: {joint-coordinate: far}}}
+"""
+
+
+@pytest.mark.parametrize("far", ["0", "2*b"])
+@pytest.mark.parametrize("bend", [10, 30, 45])
+def test_two_crosses_undo_each_other_or_add_up(sensors, bend, far):
+    """Equal angles. Forks of the shaft in line: ratio 1 throughout. Turned by 90 degrees: tan(two) = tan(one)/cos² b."""
+    text = DOUBLE.replace("BEND", f"{bend} deg").replace("FAR", far)
+    aligned = 'axis: [0, 0, 1], second-axis: ["-sin(c)", "cos(c)", 0]'
+    out = sensors(text.replace("FORKS", aligned).replace("RATIO", "1"))
+    # Positions and velocities are closed at the end of each step: no order enters.
+    assert out["two.value"] == pytest.approx(10 * out["t"], abs=1e-9)
+    assert out["two.rate"] == pytest.approx(10, abs=1e-7)
+    turned = 'axis: ["-sin(b)", "cos(b)", 0], second-axis: [0, 0, 1]'
+    out = sensors(text.replace("FORKS", turned).replace("RATIO", "1/cos(b)^2"))
+    first, c = out["one.value"], math.cos(math.radians(bend)) ** 2
+    expected = numpy.arctan2(numpy.sin(first), numpy.cos(first) * c)
+    expected += 2 * math.pi * numpy.round((first - expected) / (2 * math.pi))
+    assert out["two.value"] == pytest.approx(expected, abs=1e-9)
+    assert out["two.rate"] == pytest.approx(10 * c / ((c * numpy.cos(first)) ** 2 + numpy.sin(first) ** 2), abs=1e-7)
+
+
 @pytest.mark.parametrize("bend", [0, 40, 75])
 def test_shafts_of_a_constant_velocity_joint_turn_alike(sensors, bend):
     joint = "cv: {constant-velocity: {between: [input, output], axis: [1, 0, 0], second-axis: [\"cos(b)\", \"sin(b)\", 0]}}"

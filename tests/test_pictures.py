@@ -32,6 +32,20 @@ def test_every_picture_is_made_by_the_script_and_shown_on_a_page():
     assert kept == {name for name in made() if name.startswith("docs/pictures/")}
 
 
+def test_the_gallery_lists_every_example_and_shows_its_picture():
+    """Those with a picture of the viewer by their name are shown, the others are in the table at the end."""
+    text = (SOURCE / "docs" / "gallery.md").read_text()
+    shown_part, table = text.split("## Without a picture here")
+    link, image = r"\(\.\./examples/(\w+)/README\.md\)", r"!\[[^]]*\]\(pictures/(\w+)\.png\)"
+    entries = shown_part.split("\n## ")[1:]
+    pictured = {re.search(link, entry)[1] for entry in entries}
+    # Each entry has the picture of its own example.
+    assert [re.findall(image, entry) for entry in entries] == [re.findall(link, entry) for entry in entries]
+    examples = {path.parent.name for path in (SOURCE / "examples").glob("*/README.md")}
+    assert pictured == {name for name in examples if (SOURCE / "docs" / "pictures" / f"{name}.png").exists()}
+    assert set(re.findall(link, table)) == examples - pictured
+
+
 def test_models_scripts_and_moments_exist():
     for picture in PICTURES:
         assert picture.fixture or picture.runs

@@ -224,6 +224,31 @@ def test_cylinders_on_an_incline_roll_slide_and_stand(sensors):
     assert numpy.abs(out["balance"]).max() < 1e-4 * out["lost"][-1]
 
 
+def test_hoops_roll_down_an_incline_only_with_friction_of_half_its_slope(sensors):
+    """J = m R²: friction m g sin 30/2 rolls it, so that it takes mu = tan 30/2 = 0.28867513; either side of the eighth digit but one."""
+    limit = math.tan(math.pi / 6) / 2
+    assert limit == pytest.approx(0.28867513, abs=5e-9)
+    shares = (1 + 1e-7, 1 - 1e-7, 0.9)
+    shape = "{cylinder: {radius: 0.1, length: 0.3, axis: [0, 1, 0]}}"
+    bodies = "".join(f"  h{k}: {{rigid: {{mass: 2 kg, inertia: [0.03, 0.02, 0.03]}}, at: {{position: [0, {k}, 0.1]}}}}\n" for k in range(3))
+    loads = "".join(f"  c{k}: {{contact: {{between: [ground, h{k}], shapes: [{{plane: {{}}}}, {shape}], static: {limit * share!r}}}}}\n"
+                    for k, share in enumerate(shares))
+    seen = ", ".join(f"p{k}: {{position: h{k}}}, w{k}: {{angular-velocity: h{k}}}" for k in range(3))
+    out = sensors(f"buckens: 1\ngravity: [{G / 2}, 0, {-G * math.sqrt(3) / 2}]\nbodies:\n{bodies}loads:\n{loads}"
+                  f"simulation: {{duration: 1 s, step: 4 ms}}\noutput: {{every: 20 ms, sensors: {{{seen}, balance: {{energy: balance}}}}}}\n")
+    t = out["t"]
+    for k, share in enumerate(shares):
+        friction = min(share, 1) * G / 4  # per kg
+        # Constant accelerations are integrated exactly.
+        # What lets go by 1e-7 of its weight may stick in the first of 250 steps, short of 1e-9 m/s.
+        assert out[f"p{k}.x"] == pytest.approx(0.5 * (G / 2 - friction) * t**2, abs=5e-10)
+        assert out[f"w{k}.y"] == pytest.approx(friction / 0.1 * t, abs=5e-9)
+    slip = [out[f"p{k}.x"][-1] - 0.1 * 0.5 * out[f"w{k}.y"][-1] for k in range(3)]
+    # Slip grows by 2 (1 - share) g/4: of a ten-millionth, 2.5e-7 m after a second.
+    assert abs(slip[0]) < 1e-10 and slip[1] == pytest.approx(G / 4 * 1e-7, rel=5e-3)
+    assert numpy.abs(out["balance"]).max() < 1e-5
+
+
 def test_a_wheel_leans_and_rolls_in_a_circle(sensors):
     """Steady: dH/dt = W z x H is the moment of the force in the place that touches, which stands still."""
     m, R, half, lean, radius = 1.0, 0.1, 0.01, math.radians(20), 0.5

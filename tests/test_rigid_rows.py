@@ -313,6 +313,7 @@ def test_rigid_friction_slides_sticks_and_stops(sensors):
     ("restitution: 0.9", "restitution: 0.5, stiffness: 1e5 N/m", ["restitution", "stiffness"]),
     ("restitution: 0.9", "damping: 5 N s/m", ["damping", "stiffness"]),
     ("step: 5 ms", "step: 5 ms, method: newmark", ["floor", "newmark", "generalized-alpha"]),
+    ("step: 5 ms", "step: 5 ms, method: wilson", ["load \"floor\" holds rigidly", "method wilson", "generalized-alpha or hht", "a stiffness"]),
     ("from: -1 m", "from: 0.2 m", ["from", "0.2", "outside"]),
 ])
 def test_what_cannot_be_is_refused(buckens, tmp_path, old, new, words):

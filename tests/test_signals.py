@@ -6,6 +6,8 @@ import math
 
 import numpy
 import pytest
+from scipy.linalg import expm
+from scipy.optimize import brentq
 
 from conftest import SOURCE
 
@@ -361,3 +363,48 @@ output: {every: STEP, sensors: {x: {signal: warm}}}
         assert abs(x).max() < c + 1.5 * step / T
     # It switches at the end of a step: each half of a period is late by up to a step, half a step on average.
     assert 0 <= errors[0] < 2e-3 and 0 <= errors[1] < 0.5e-3
+
+
+def cycle_of_relay(late):
+    """Period and maximum of y''' + 2 y'' + 3 y' = -sgn y where the sign changes `late`: x(T) = -x(0) and y(T - late) = 0."""
+    M = numpy.zeros((4, 4))
+    M[:3] = [[0, 1, 0, 0], [0, 0, 1, 0], [0, -3, -2, -1]]
+
+    def start(T):
+        E = expm(M * T)
+        return numpy.append(numpy.linalg.solve(numpy.eye(3) + E[:3, :3], -E[:3, 3]), 1)
+
+    half = brentq(lambda T: (expm(M * (T - late)) @ start(T))[0], 1.5, 2.2, xtol=1e-14)
+    top = brentq(lambda t: (expm(M * t) @ start(half))[1], 0.1 * half, 0.9 * half, xtol=1e-14)
+    return 2 * half, (expm(M * top) @ start(half))[0]
+
+
+def test_a_relay_oscillator_has_the_cycle_of_siconos(sensors):
+    """Its example RelayOscillator: verification/mechanisms/reference.json."""
+    case = json.loads((SOURCE / "verification" / "mechanisms" / "reference.json").read_text())["relay"]
+    text = f"""
+buckens: 1
+bodies: {{cart: {{rigid: {{mass: 1 kg, inertia: [1, 1, 1]}}}}}}
+joints: {{rail: {{prismatic: {{between: [ground, cart], axis: [1, 0, 0]}}}}}}
+signals:
+  below: {{switch: {{input: out, on: -1e-12, off: 1e-12}}}}
+  out: {{state-space: {{input: "2*below - 1", A: [[0, 1, 0], [0, 0, 1], [0, -3, -2]], B: [0, 0, 1], C: [1, 0, 0], start: {case["start"]}}}}}
+simulation: {{duration: 40 s, step: STEP s}}
+output: {{every: STEP s, sensors: {{y: {{signal: out}}}}}}
+"""
+    for step in (0.01, 0.0025):
+        out = sensors(text.replace("STEP", str(step)))
+        t, y = out["t"], out["y"]
+        # Before it switches for the first time, of order two as Siconos' own rule: (w h)²/12 of 0.4.
+        early = [y[round(at / step)] for at in case["t"]]
+        assert early == pytest.approx(case["y"], abs=1.5e-5)
+        up = numpy.flatnonzero((y[:-1] < 0) & (y[1:] >= 0) & (t[:-1] > 25))
+        crossed = t[up] + step * y[up] / (y[up] - y[up + 1])
+        assert len(crossed) >= 3
+        # It switches at the end of a step: late by part of it, which is chance. Of order two besides.
+        soonest, latest = (numpy.array(cycle_of_relay(late)) for late in (0, step))
+        slack = 1e-4 * (step / 0.01) ** 2
+        found = numpy.array([numpy.diff(crossed).mean(), y[t > 25].max()])
+        assert (soonest - slack < found).all() and (found < latest + slack).all()
+    # Siconos switches at ends of its steps, too, and before its output has changed its sign.
+    assert cycle_of_relay(-case["step"])[1] < case["amplitude"] < cycle_of_relay(case["step"])[1]

@@ -72,6 +72,58 @@ def test_variants_do_not_depend_on_how_many_go_together(buckens, tmp_path):
         assert numpy.array_equal(sensors_of(tmp_path / "by2" / name), sensors_of(tmp_path / "by4" / name))
 
 
+# Friction, contact, a controller with a state and an event: everything here has a state of its own besides the motion.
+MACHINE = """
+buckens: 1
+planar: xy
+parameters: {goal: 0.6, rub: 0.1, gain: 8}
+gravity: [0, -9.81, 0]
+materials: {steel: {E: 210 GPa, nu: 0.3, rho: 7850, damping: {stiffness: 2e-5 s}}}
+bodies:
+  arm: {beam: {to: [0.5, 0, 0], elements: 6, section: {rectangle: {width: 20 mm, height: 6 mm}}, material: steel}}
+  load: {rigid: {mass: 0.1 kg, inertia: [0, 0, 1e-5]}, at: {position: [0.5, 0.2, 0]}}
+joints:
+  hinge: {revolute: {between: [ground, arm/start]}}
+  clamp: {fixed: {between: [load, {ground: [0.5, 0.2, 0]}]}}
+signals:
+  angle: {joint-angle: hinge}
+  error: "goal - angle"
+  hold: {setting: 1}
+  past: "angle - 0.15"
+  far: "angle - 0.16"
+  drive: {pid: {input: error, proportional: gain, integral: 20, derivative: 0.4, filter: 5 ms, limits: [-6, 6], tracking-time: 50 ms}}
+events:
+  drop: {when: past, direction: rising, release: clamp}
+  weaken: {when: far, direction: rising, set: {hold: 0.5}}
+loads:
+  motor: {hinge-motor: {joint: hinge, torque: "drive*hold N m"}}
+  friction: {hinge-friction: {joint: hinge, static: rub, radius: 20 mm, preload: 0.1 N m, slip: 1e-5 rad}}
+  bed: {contact: {between: [load, arm/end], shapes: [{sphere: 20 mm}, {sphere: 20 mm}], stiffness: 1e5, restitution: 0.5, static: 0.3}}
+simulation: {duration: 0.6 s, step: 0.2 ms}
+output: {every: 1 ms, sensors: {hinge: {joint-coordinate: hinge}, load: {position: load}, drive: {signal: drive}, hold: {signal: hold}, bed: {contact: bed}, torque: {spring-torque: friction}}}
+"""
+
+
+def test_variants_of_a_machine_are_single_runs_to_the_last_bit(buckens, tmp_path):
+    (tmp_path / "machine.yaml").write_text(MACHINE)
+    (tmp_path / "table.csv").write_text("name,parameters.goal,parameters.rub,parameters.gain\n"
+                                        "a,0.6,0.1,8\nb,0.6,0.4,8\nc,0.9,0.1,16\nd,0.5,0.2,6\n")
+    buckens("sweep", "machine.yaml", "table.csv", "-o", "out", "-q").must(0)
+    last = set()
+    for row in table_of(tmp_path / "out"):
+        settings = [part for key in ("goal", "rub", "gain") for part in ("--set", f"parameters.{key}={row['parameters.' + key]}")]
+        buckens("run", "machine.yaml", "-o", "alone", "-q", *settings).must(0)
+        together, alone = (tmp_path / "out" / row["name"], tmp_path / "alone")
+        assert (together / "sensors.csv").read_bytes() == (alone / "sensors.csv").read_bytes()
+        columns = next(csv.reader((alone / "sensors.csv").open()))
+        out = dict(zip((name.split(" [")[0] for name in columns), sensors_of(alone).T))
+        # In each of them the load was let go and struck, friction acted, and the second event came.
+        assert out["load.y"].min() < 0.1999 and out["bed.normal"].max() > 1
+        assert numpy.abs(out["torque"]).max() > 0.1 and out["hold"][-1] == 0.5
+        last.add(out["hinge.value"][-1])
+    assert len(last) == 4
+
+
 def test_combinations_of_ranges(buckens, models, tmp_path):
     buckens("sweep", models / "pendulum.yaml", "-o", "out", "--vary", "simulation.duration=[0.01, 0.02]",
             "--vary", "gravity.1=[-9.81 m/s^2, -1.62 m/s^2, 0]").must(0)
