@@ -344,3 +344,14 @@ def test_a_new_run_leaves_no_checkpoint_of_the_old_one(buckens, models, tmp_path
     buckens("run", models / "pendulum.yaml", "-q", "-o", "out").must(0)
     buckens("run", models / "pendulum.yaml", "-q", "-o", "out", "--set", "simulation.checkpoint=off").must(0)
     assert not (tmp_path / "out" / "checkpoint.h5").exists()
+
+
+def test_a_run_of_a_mesh_goes_on_by_itself(buckens, tmp_path):
+    """model.yaml of the run says where its mesh lies, which the model that was read had no need to."""
+    from conftest import SOURCE
+    shutil.copytree(SOURCE / "examples" / "bracket_inp", tmp_path / "bracket")
+    changes = "-q", "--set", "simulation.duration=0.2 ms", "--set", "simulation.step=0.1 ms", "--set", "output.every=0.1 ms"
+    buckens("run", "bracket/bracket_inp.yaml", "-o", "out", *changes).must(0)
+    buckens("run", "--continue", "out", "--until", 4e-4, "-q").must(0)
+    buckens("run", "bracket/bracket_inp.yaml", "-o", "whole", *changes, "--set", "simulation.duration=0.4 ms").must(0)
+    assert (tmp_path / "out/sensors.csv").read_bytes() == (tmp_path / "whole/sensors.csv").read_bytes()

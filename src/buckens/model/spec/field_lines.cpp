@@ -161,7 +161,7 @@ std::vector<std::string> field_lines(const ModelDescription& description) {
   LineCollector(all, 1.0).add("", description);
   std::vector<std::string> out;
   for (std::string& line : all) {
-    const bool is_left_out = line.starts_with("title:") ||
+    const bool is_left_out = line.starts_with("title:") || line.starts_with("base:") ||
                              line.starts_with("simulation.duration:") ||
                              line.starts_with("simulation.checkpoint:");
     if (is_left_out) continue;

@@ -10,7 +10,7 @@ namespace buckens::model {
 
 /// The contents of a model, one line per value: "bodies.rod.beam.elements: 16". Numbers to the last
 /// bit, names and order as in the model file; title, duration,
-/// checkpoints and places in files are left out.
+/// checkpoints, places in files and the directory of files (`base`) are left out.
 /// Laws of time are given by their text and their values at a few instants of the run.
 ///
 /// For detecting whether and where two models differ.
