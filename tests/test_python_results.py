@@ -202,12 +202,13 @@ def test_the_tutorial_works_as_it_is_written(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     text = (SOURCE / "docs" / "tutorials" / "python.md").read_text()
     blocks = [block.split("```")[0] for block in text.split("```python\n")[1:]]
-    first, objects, arrays, controller, force, setting, signal, study = blocks
+    first, objects, arrays, controller, force, setting, signal, study, whole = blocks
     names = {}
     exec(first, names)
     assert (tmp_path / "mid.png").stat().st_size > 1000 and names["summary"]["steps"] == 2000
     exec(objects.replace('"1 s"', '"10 ms"'), names)
     exec(study, names)
+    exec(whole, names)
     exec(arrays, names)
     assert buckens.check(names["cantilever"])["bodies"]["bar"]["elements"] == 2
     shown = capsys.readouterr().out.splitlines()
@@ -220,8 +221,10 @@ def test_the_tutorial_works_as_it_is_written(tmp_path, monkeypatch, capsys):
     # w = 20 rad/s, damping ratio 0.2: e^(-4) of the way is left.
     assert turned.signals["angle"] == pytest.approx(0.5, abs=0.5 * math.exp(-4))
     # Two lines of the first block, and a height per variant: 10 ms of fall about the hinge.
-    assert len(shown) == 2 + 3
-    for line in shown[2:]:
+    assert len(shown) == 2 + 3 + 2
+    # Steps of 0.5 ms over 10 ms of a fall by 0.4 mm: well below its height.
+    assert 0 < float(shown[5]) < 1e-4 and float(shown[6]) == pytest.approx(15e-3, rel=1e-12)
+    for line in shown[2:5]:
         assert float(line.split()[-1]) == pytest.approx(-0.75 * 9.81 * 0.01**2, rel=0.3)
     names["sim"] = buckens.Simulation(names["model"])
     exec(force, names)

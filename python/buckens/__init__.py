@@ -14,6 +14,7 @@ from . import _core, study
 from .array_mesh import ArrayMesh
 from .curve import Curve
 from .errors import DifferenceError, Error, InputError, IoError, ModelError, NumericalError
+from .live_page import LivePage
 from .model import Model, load
 from .objects import *  # noqa: F403
 from .objects import __all__ as _parts
@@ -21,10 +22,13 @@ from .present import Body, Frame
 from .result_mesh import ResultMesh
 from .results import Results, RunPage, open  # noqa: A004 (the name says what it does)
 from .simulation import Simulation
-from .verbs import check, compare, convert, mesh_info, modes, static, sweep, view
+from .verb_run import continue_run, run
+from .verbs import (check, compare, convert, merge_sweep, mesh_info, modes, static, sweep, sweep_status, view,
+                    view_live)
 from .yaml_text import to_yaml
 
 __version__: str = _core.version
-__all__ = ["ArrayMesh", "Body", "Curve", "DifferenceError", "Error", "Frame", "InputError", "IoError", "Model",
-           "ModelError", "NumericalError", "ResultMesh", "Results", "RunPage", "Simulation", "check", "compare", "convert",
-           "load", "mesh_info", "modes", "open", "static", "study", "sweep", "to_yaml", "view"] + _parts
+__all__ = ["ArrayMesh", "Body", "Curve", "DifferenceError", "Error", "Frame", "InputError", "IoError", "LivePage", "Model",
+           "ModelError", "NumericalError", "ResultMesh", "Results", "RunPage", "Simulation", "check", "compare",
+           "continue_run", "convert", "load", "merge_sweep", "mesh_info", "modes", "open", "run", "static", "study", "sweep",
+           "sweep_status", "to_yaml", "view", "view_live"] + _parts

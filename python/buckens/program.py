@@ -13,13 +13,15 @@ from contextlib import contextmanager
 from typing import Any, Dict, Iterator, List, Sequence, Union
 
 from . import errors
-from .model import Model, PathLike
+from .messages import logger
+from .model import Model, Overrides, PathLike, overrides_of
 
 ModelLike = Union[Model, PathLike]
 
 _KINDS = {"usage": errors.InputError, "input": errors.InputError, "model": errors.ModelError,
           "numerical": errors.NumericalError, "io": errors.IoError, "memory": MemoryError}
 _INTERRUPTED, _DIFFERENT = 130, 6
+_WARNING = "buckens: warning: "
 
 
 def find_program() -> str:
@@ -68,6 +70,23 @@ def file_of(model: ModelLike) -> Iterator[str]:
         yield path
 
 
+def changes_of(set: Overrides) -> List[str]:  # noqa: A002
+    """Options `--set` for changes of a model."""
+    return [word for change in overrides_of(set) for word in ("--set", change)]
+
+
+def options_of(**options: Any) -> List[str]:
+    """Options of the program: underscores become hyphens, None and False are left out."""
+    out: List[str] = []
+    for key, value in options.items():
+        if value is None or value is False:
+            continue
+        out.append("--" + key.replace("_", "-"))
+        if value is not True:
+            out.append(os.fspath(value) if isinstance(value, os.PathLike) else str(value))
+    return out
+
+
 def call(verb: str, arguments: Sequence[str]) -> Dict[str, Any]:
     """Calls a verb with `--json` and returns what it prints.
 
@@ -86,10 +105,14 @@ def call(verb: str, arguments: Sequence[str]) -> Dict[str, Any]:
         except KeyboardInterrupt:
             process.communicate()
             raise
-    return _answer(process.returncode, out, err)
+    return answer_of(process.returncode, out, err)
 
 
-def _answer(code: int, out: str, err: str) -> Dict[str, Any]:
+def answer_of(code: int, out: str, err: str) -> Dict[str, Any]:
+    """What a call has printed; warnings go to the logger "buckens", errors are raised."""
+    for line in err.splitlines():
+        if line.startswith(_WARNING):
+            logger.warning(line[len(_WARNING):])
     try:
         answer = json.loads(out)
     except ValueError:

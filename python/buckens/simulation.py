@@ -61,8 +61,17 @@ class Simulation:
 
     @classmethod
     def resume(cls, path: PathLike, model: Model, out: Optional[PathLike] = None, threads: int = 1,
-               record: bool = True) -> Simulation:
+               record: bool = True, *, until: Optional[float] = None) -> Simulation:
         """Continues bit for bit from a state that :meth:`save` wrote.
+
+        Parameters
+        ----------
+        path
+            The file.
+        model, out, threads, record
+            As of :class:`Simulation`; the model may have another title and duration than the one that was saved.
+        until
+            Another end of the run [s]: the ``duration`` of the model for this simulation.
 
         Raises
         ------
@@ -71,6 +80,8 @@ class Simulation:
         IoError
             If the file cannot be read or is damaged.
         """
+        if until is not None:
+            model = model.with_changes({"simulation.duration": _number("until", until)})
         return cls(model, out, threads, record, _start_from=os.fspath(path))
 
     def _prepare(self) -> None:
@@ -85,7 +96,7 @@ class Simulation:
         for callback in self._callbacks:
             self._core_now.on_step(callback)
         if out and self._model._files:
-            _keep_files(self._model, out)
+            keep_files(self._model, out)
         tell_messages()
 
     @property
@@ -331,7 +342,7 @@ class Simulation:
                 f"{self.end_time:.6g} s, {self.num_steps} steps>")
 
 
-def _keep_files(model: Model, out: str) -> None:
+def keep_files(model: Model, out: str) -> None:
     """Meshes and matrices given as arrays go into the run directory, whose model.yaml names them."""
     path = os.path.join(out, "model.yaml")
     with open(path, encoding="utf-8") as file:
