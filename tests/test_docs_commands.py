@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Every command on a page is executed, and the output that a page shows is the program's.
+"""Commands of the program on pages are executed, and the output that a page shows is the program's.
 
 Here: the commands of `buckens` on all pages, in their order, with the files that a page speaks of. Runs take a few steps; what they
 show at the end is compared in test_examples.py, test_example_pages.py and test_example_warnings.py. Programs on pages are executed by
-test_result_docs.py, test_python_results.py and tests/install. ELSEWHERE names who executes the commands of other programs.
+test_result_docs.py, test_python_results.py and tests/install. ELSEWHERE names who executes the commands of other programs, NOT_EXECUTED
+those that nobody does.
 """
 
 import json
@@ -20,32 +21,39 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent / "support"))
 from conftest import PROGRAM, SOURCE  # noqa: E402
 from doc_blocks import blocks_of, commands_of  # noqa: E402
 
+# Who executes it, and the words by which: they stand in that file.
 ELSEWHERE = {
-    "./test.sh": "the way in which this is called",
-    "./demo.sh": "tools/test/test_setup.sh",
-    "./docs.sh": "tests/test_docs_site.py",
-    "./packages.sh": "tests/test_packages.py",
-    "apt-get install ./buckens_": "tests/packages/clean_root.sh",
-    "pip install .": "tests/test_python_package.py",
-    "cmake --preset": "tools/setup.sh",
-    "cmake --build": "tools/setup.sh",
-    "ctest --preset": "test.sh",
-    "cmake -S examples/cpp": "tests/install/run.cmake",
-    "cmake --build build-cpp": "tests/install/run.cmake",
-    "build-cpp/": "tests/install/run.cmake",
-    "export PYTHONPATH": "tests/support/python_module.py",
-    "python3 examples/python/flexible_arm.py": "tests/test_python_package.py",
-    "python3 examples/python/": "tests/test_python_examples.py",
-    "python3 examples/method_comparison/compare.py": "tests/test_method_comparison.py",
-    "python3 examples/planar_levels/figures.py": "tests/test_pictures.py",
-    "python3 bench/": "tests/test_bench.py",
-    "/usr/bin/python3 -m pytest": "cmake/BuckensTests.cmake",
-    "tests/tools/make_pictures.py": "tests/test_pictures.py",
-    "tests/fuzz/run_fuzzer.py": "cmake/BuckensFuzz.cmake",
-    "tests/packages/clean_root.sh": ".github/workflows/test.yaml",
-    "node viewer/scripts/screenshot.mjs": "tests/tools/make_pictures.py",
-    "npm ": "viewer/package.json",
-    "tools/": "cmake/BuckensTests.cmake",
+    "cmake --preset release": ("tools/setup.sh", "cmake --preset release"),
+    "ctest --preset release": ("test.sh", "ctest --preset release"),
+    "cmake -S examples/cpp": ("tests/install/run.cmake", '-S "${examples}"'),
+    "cmake --build build-cpp": ("tests/install/run.cmake", '--build "${work}/examples"'),
+    "build-cpp/pendulum": ("tests/install/run.cmake", 'run("${work}/examples/pendulum")'),
+    "export PYTHONPATH": ("tests/test_python_examples.py", '"PYTHONPATH": '),
+    "python3 examples/python/flexible_arm.py": ("tests/test_python_package.py", "call(PYTHON, script"),
+    "python3 examples/python/rod_taper.py": ("tests/test_python_examples.py", 'run("rod_taper.py"'),
+    "python3 examples/python/parameter_study.py": ("tests/test_python_examples.py", 'run("parameter_study.py"'),
+    "python3 examples/python/tolerances.py": ("tests/test_python_examples.py", 'run("tolerances.py"'),
+    "python3 examples/method_comparison/compare.py": ("tests/test_method_comparison.py", '"--short"'),
+    "python3 bench/run.py --list": ("tests/test_bench.py", '"bench/run.py", "--list"'),
+    "/usr/bin/python3 -m pytest": ("cmake/BuckensTests.cmake", "-m pytest"),
+    "tests/fuzz/run_fuzzer.py": ("cmake/BuckensFuzz.cmake", "tests/fuzz/run_fuzzer.py"),
+    "npm run build": ("cmake/build_viewer.cmake", "run --silent build"),
+    "npm test": ("cmake/BuckensViewer.cmake", "ITEMS test test:page"),
+    "npm run test:page": ("cmake/BuckensViewer.cmake", "ITEMS test test:page"),
+    "tools/census.py": ("tests/test_census.py", '"census.py"'),
+}
+# What no test executes, and why.
+NOT_EXECUTED = {
+    "./test.sh": "calls this test; .github/workflows/test.yaml calls it, where that runs",
+    "./demo.sh": "installs packages and builds; tools/test/test_setup.sh tests how it decides what to install",
+    "./packages.sh": "builds everything anew; tests/test_packages.py has cpack make the packages of this build",
+    "cmake --preset dev": "builds everything a second time; that there are such presets is tested here",
+    "cmake --build --preset dev": "the same",
+    "python3 examples/planar_levels/figures.py": "minutes, and it replaces pictures; tests/test_pictures.py tests that it is there",
+    "python3 bench/": "minutes to half an hour, and times on a busy machine say nothing; tests/test_bench.py tests names and tables",
+    "tests/tools/make_pictures.py": "minutes, and it replaces pictures; tests/test_pictures.py tests its table",
+    "node viewer/scripts/screenshot.mjs": "tests/tools/make_pictures.py calls it, which no test does",
+    "npm run fixture": "writes a page to look at; viewer/tests make theirs by the same function",
 }
 
 PAGES = [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", *sorted((SOURCE / "docs").rglob("*.md")),
@@ -175,22 +183,42 @@ def test_commands_of_a_page(page, tmp_path):
             printed += [line for words in found for line in call(words[1:]).splitlines()]
         # Results of whole runs are compared in test_example_pages.py; what a page tells to put into a file is no output.
         elif printed and "steps to t =" not in block.text and block.text not in FILES.get(page, {}).values() and \
-                not block.text.startswith(tuple(ELSEWHERE)):
+                not block.text.startswith((*ELSEWHERE, *NOT_EXECUTED)):
             for line in block.text.splitlines():
                 assert any(agrees(line, other) for other in printed), f"{block.name}: not printed: {line}"
 
 
-def test_blocks_of_other_programs_are_executed_elsewhere():
+OTHER_PROGRAM = re.compile(r"(\./\w|cmake|ctest|pip |apt|export|python3|/usr/bin/python3|tests/|tools/|build-|node |npm )")
+
+
+def test_commands_of_other_programs_are_executed_elsewhere_or_said_not_to_be():
+    used = set()
     for block in BLOCKS:
         if block.language or block.reason or is_grammar(block):
             continue
         for line in re.sub(r"\\\n\s*", "", block.text).splitlines():
-            if re.match(r"(\./\w|cmake|ctest|pip |apt|export|python3|/usr/bin/python3|tests/|tools/|build-|node |npm )", line):
-                known = [start for start in ELSEWHERE if line.startswith(start)]
-                assert known, f"{block.name}: nobody executes {line!r}; name who does in ELSEWHERE, or say why not before " \
-                              "the block: <!-- not run: REASON -->"
-                place = ELSEWHERE[max(known, key=len)]
-                assert " " in place or (SOURCE / place).exists(), place
+            if OTHER_PROGRAM.match(line):
+                known = [start for start in (*ELSEWHERE, *NOT_EXECUTED) if line.startswith(start)]
+                assert known, f"{block.name}: nobody executes {line!r}; name who does in ELSEWHERE, or say why not in " \
+                              "NOT_EXECUTED or before the block: <!-- not run: REASON -->"
+                used.add(max(known, key=len))
+    assert used == {*ELSEWHERE, *NOT_EXECUTED}, "no page has the others"
+    for command, (place, words) in ELSEWHERE.items():
+        assert words in (SOURCE / place).read_text(), f"{place} does not execute {command}: it has no {words!r}"
+
+
+def test_presets_and_scripts_on_pages_exist():
+    """Of commands that are not executed."""
+    presets = json.loads((SOURCE / "CMakePresets.json").read_text())
+    names = {preset["name"] for preset in presets["configurePresets"]} & {preset["name"] for preset in presets["buildPresets"]}
+    scripts = set(json.loads((SOURCE / "viewer" / "package.json").read_text())["scripts"])
+    lines = [line for block in BLOCKS if not block.language for line in block.text.splitlines() if OTHER_PROGRAM.match(line)]
+    found = [word for line in lines for word in re.findall(r"--preset (\w+)", line)]
+    assert set(found) <= names and "dev" in found
+    assert {word for line in lines for word in re.findall(r"^npm run ([\w:]+)", line)} <= scripts
+    for line in lines:
+        for path in re.findall(r"(?<![\w/])(?:\./)?((?:bench|examples|tests|tools|viewer)/[\w/]+\.(?:py|mjs|sh))", line):
+            assert (SOURCE / path).exists(), line
 
 
 def test_languages_of_blocks():

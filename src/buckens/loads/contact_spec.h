@@ -26,8 +26,9 @@ struct ContactForceSpec {
   std::optional<double> tangential;   ///< stiffness of sticking [N/m]
 
  protected:
+  /// @param without what follows where neither a stiffness nor moduli are given
   template <class Visitor>
-  void stiffness_fields(Visitor& visit) {
+  void stiffness_fields(Visitor& visit, const char* without) {
     visit(base::field(
               "stiffness", stiffness,
               "force at 1 m of overlap: N/m, with an `exponent` n other than 1 the number "
@@ -38,21 +39,22 @@ struct ContactForceSpec {
               .in(base::kStiffness)
               .positive()
               .like("1e7 N/m")
-              .otherwise("by `modulus`; without either the contact is rigid"));
+              .otherwise(std::string("by `modulus`; ") + without));
     visit(base::field("exponent", exponent, "n of the force, stiffness times overlap to the n")
               .positive()
               .like("1.5")
               .otherwise("1; with `modulus` 1.5"));
   }
 
+  /// @param restitution_otherwise of contacts that state none
   template <class Visitor>
-  void loss_fields(Visitor& visit) {
+  void loss_fields(Visitor& visit, const char* restitution_otherwise) {
     visit(base::field("restitution", restitution,
                       "share of the speed of approach with which the bodies part, 0 … 1; of an "
                       "elastic contact at least 0.01")
               .non_negative()
               .like("0.8")
-              .otherwise("elastic: 1; rigid: 0"));
+              .otherwise(restitution_otherwise));
     visit(
         base::field("threshold", threshold,
                     "speed of approach: below it a rigid contact stays closed, and losses of an "
@@ -115,7 +117,7 @@ struct ContactSpec : ContactForceSpec {
     visit(base::field("shapes", shapes, "the shape on the first marker and that on the second")
               .required()
               .like("[{plane: [0, 0, 1]}, {sphere: 50 mm}]"));
-    stiffness_fields(visit);
+    stiffness_fields(visit, "without either the contact is rigid");
     visit(base::field("modulus", modulus,
                       "Young's moduli of both bodies, for the force by Hertz; for spheres on "
                       "planes, spheres and in sockets")
@@ -127,7 +129,7 @@ struct ContactSpec : ContactForceSpec {
               .within(base::Range::poisson)
               .like("[0.3, 0.33]")
               .otherwise("0.3 for both"));
-    loss_fields(visit);
+    loss_fields(visit, "elastic: 1; rigid: 0");
     friction_fields(visit);
   }
 };
@@ -174,7 +176,7 @@ struct ContactsSpec : ContactForceSpec {
     visit(base::field("against", against,
                       "a second list: then only what is in different lists can touch")
               .like("[{on: ground, plane: [0, 0, 1]}]"));
-    stiffness_fields(visit);
+    stiffness_fields(visit, "one of the two is needed");
     visit(base::field("modulus", modulus,
                       "Young's modulus of all bodies, for the force by Hertz; for spheres and "
                       "planes")
@@ -186,7 +188,7 @@ struct ContactsSpec : ContactForceSpec {
               .within(base::Range::poisson)
               .like("0.3")
               .otherwise("0.3"));
-    loss_fields(visit);
+    loss_fields(visit, "1");
     friction_fields(visit);
   }
 };
