@@ -237,7 +237,8 @@ class GlbExporter {
         if (instants_.size() > 1) animate_shapes(found, node);
       }
     }
-    entry["primitives"] = {std::move(primitive)};
+    // Braces around one value are a copy to clang and an array to GCC.
+    entry["primitives"] = Json::array({std::move(primitive)});
     meshes_.push_back(std::move(entry));
   }
 

@@ -83,7 +83,7 @@ Json record_schema(const Shape& shape) {
   Json out = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
   if (!required.empty()) out["required"] = required;
   for (const FieldShape& alternative : shape.alternatives) {
-    out["oneOf"].push_back({{"required", {alternative.note.name}}});
+    out["oneOf"].push_back({{"required", Json::array({alternative.note.name})}});
   }
   return out;
 }
