@@ -39,6 +39,7 @@ void WorkDisplay::show(const base::Work& work) {
   if (work.name != name_) {
     name_ = work.name;
     outlook_.clear();
+    stage_.clear();
     begin_ = Clock::now();
     next_ = redraws ? 0 : kNewLine;  // short work stays silent where nothing can be wiped
   }
@@ -55,7 +56,11 @@ void WorkDisplay::show(const base::Work& work) {
     tell(stream_, fmt::format("buckens: {}: {}\n", work.name, work.outlook));
     outlook_ = work.outlook;
   }
-  if (seconds < next_) return;
+  // A stage that begins is seen on a terminal, however short the one before it was.
+  const std::string stage = work.stage.substr(0, work.stage.find(','));
+  const bool begins = redraws && (stage != stage_ || says_outlook);
+  stage_ = stage;
+  if (seconds < next_ && !begins) return;
   wipe();
   const std::string line = work_line(work, seconds);
   tell(stream_, redraws ? line.substr(0, static_cast<std::size_t>(columns_of(stream_) - 1))

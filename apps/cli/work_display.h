@@ -34,6 +34,7 @@ class WorkDisplay {
   ProgressDisplay::Style style_;
   Clock::time_point begin_;
   std::string name_, outlook_;  // of the work that goes on, and what was said of it
+  std::string stage_;           // shown last, up to its first comma
   double next_ = 0;             // seconds after the beginning at which it is shown again
 };
 
