@@ -14,6 +14,7 @@
 #include "buckens/joints/held_row.h"
 #include "buckens/joints/path_row.h"
 #include "buckens/joints/rolling_row.h"
+#include "buckens/spatial/rotation.h"
 
 namespace buckens::joints {
 
@@ -190,7 +191,7 @@ void add_constant_velocity(const Triad& f, const Placement& placement, RowCollec
                     std::acos(std::clamp(shaft.dot(f.z), -1.0, 1.0)) * kDegrees));
   }
   // Directions across the second shaft are those across the first, bent with it.
-  const Eigen::Matrix3d bend = Eigen::Quaterniond::FromTwoVectors(f.z, shaft).toRotationMatrix();
+  const Eigen::Matrix3d bend = spatial::rotation_between(f.z, shaft).toRotationMatrix();
   rows.points_in_world();
   rows.push(ConstraintRow::homokinetic(f.x, f.y, rows.to_M(bend * f.x), rows.to_M(bend * f.y)));
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/model/whole_body.h"
 
-#include <Eigen/QR>
 #include <Eigen/SVD>
 
 #include "buckens/model/model.h"
@@ -55,7 +54,7 @@ body::FrameMotion whole_motion(const Model& model, const WholeBody& whole, const
   const Matrix3d R = nearest_rotation(B);
   out.X_WB.q = Eigen::Quaterniond(R).normalized();
   // Straight bars have no inertia about their axis: the least rotation that has the momentum.
-  out.w = R.transpose() * J.completeOrthogonalDecomposition().solve(momentum);
+  out.w = R.transpose() * spatial::spin_of(J, momentum);
   return out;
 }
 

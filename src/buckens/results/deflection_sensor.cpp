@@ -7,6 +7,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/results/divided_body.h"
+#include "buckens/spatial/rotation.h"
 
 namespace buckens::results {
 
@@ -55,7 +56,7 @@ class DeflectionSensor final : public Sensor {
     const Vector3d off = p0 + displacement(now, markers_[0]) - (a + share * (b - a));
     const Vector3d off0 = p0 - (a0 + share * (b0 - a0));
     // Seen in axes that turn with the chord.
-    return Eigen::Quaterniond::FromTwoVectors(b - a, b0 - a0) * off - off0;
+    return spatial::rotation_between(b - a, b0 - a0) * off - off0;
   }
 
   /// As the second marker sees it, that moves and turns with the mesh.

@@ -20,6 +20,15 @@ Eigen::Quaterniond exp_rotation(const Eigen::Vector3d& psi) {
   return q;
 }
 
+// Both make decompositions of small matrices, which take seconds to compile: once, here.
+Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  return Eigen::Quaterniond::FromTwoVectors(from, to);
+}
+
+Eigen::Vector3d spin_of(const Eigen::Matrix3d& J, const Eigen::Vector3d& L) {
+  return J.completeOrthogonalDecomposition().solve(L);
+}
+
 Eigen::Vector3d log_rotation(const Eigen::Quaterniond& q_in) {
   Eigen::Quaterniond q = q_in.normalized();
   if (q.w() < 0) q.coeffs() *= -1.0;

@@ -11,6 +11,14 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& x);
 /// Unit quaternion of the rotation by |psi| [rad] about psi; exact near zero.
 Eigen::Quaterniond exp_rotation(const Eigen::Vector3d& psi);
 
+/// The shortest rotation that carries the direction of `from` to that of `to`; neither is zero. Of
+/// opposite directions, half a turn about one of the axes across.
+Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
+/// Angular velocity [rad/s] with J w = L, the least of them where J [kg m²] is singular, as of a
+/// straight bar about its axis. In the axes of J and L [kg m²/s].
+Eigen::Vector3d spin_of(const Eigen::Matrix3d& J, const Eigen::Vector3d& L);
+
 /// Rotation vector psi [rad], |psi| ≤ π, with exp_rotation(psi) = ±q.
 Eigen::Vector3d log_rotation(const Eigen::Quaterniond& q);
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/analysis/initial/nodal_field.h"
 
-#include <Eigen/QR>
-
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::analysis {
@@ -44,7 +42,7 @@ std::vector<RigidShare> sieve_field(const model::Model& model, const model::Whol
   for (std::size_t k = 0; k < fields.size(); ++k) part(k).flexible->sieve.apply(fields[k]);
   if (!whole.is_divided()) return shares;
   const Vector3d v0 = momentum / whole.mass;
-  const Vector3d w0 = J.completeOrthogonalDecomposition().solve(spin_momentum);
+  const Vector3d w0 = spatial::spin_of(J, spin_momentum);
   for (std::size_t k = 0; k < fields.size(); ++k) {
     shares[k].translation -= v0 + w0.cross(part(k).com - whole.com);
     shares[k].rotation -= w0;

@@ -6,6 +6,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/line/frame.h"
+#include "buckens/spatial/rotation.h"
 
 namespace buckens::fem {
 
@@ -36,7 +37,7 @@ BeamDivision add_curved_beam(Structure& structure, int node_a, int node_b, BeamP
     out.nodes.push_back(is_last ? node_b : add_node(structure, "", places[k + 1]));
     LineFrame frame = line_frame(places[k], places[k + 1], properties.up);
     if (k > 0 && !properties.up) {
-      const auto turn = Eigen::Quaterniond::FromTwoVectors(last.axes.col(0), frame.axes.col(0));
+      const auto turn = spatial::rotation_between(last.axes.col(0), frame.axes.col(0));
       frame = line_frame(places[k], places[k + 1], Vector3d(turn * last.axes.col(2)));
     }
     const double to = is_last ? 1.0 : from + frame.length / length;

@@ -7,11 +7,10 @@
 #include <numeric>
 #include <span>
 
-#include <Eigen/Geometry>
-
 #include "buckens/fem/shell/element.h"
 #include "buckens/fem/shell/turn.h"
 #include "buckens/fem/solid/recovery.h"
+#include "buckens/spatial/rotation.h"
 
 namespace buckens::fem {
 
@@ -169,7 +168,7 @@ Matrix3d mean_axes(const Members& members) {
   for (const auto& member : members) normal += member.axes.col(2);
   normal.normalize();
   const Matrix3d& first = members.front().axes;
-  const Vector3d x = Eigen::Quaterniond::FromTwoVectors(first.col(2), normal) * first.col(0);
+  const Vector3d x = spatial::rotation_between(first.col(2), normal) * first.col(0);
   Matrix3d out;
   out << x, normal.cross(x), normal;
   return out;

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <Eigen/Geometry>
+#include "buckens/spatial/rotation.h"
 
 namespace buckens::fem {
 
@@ -11,7 +11,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 double turn_between(const Matrix3d& from, const Matrix3d& to) {
-  const Vector3d x = Eigen::Quaterniond::FromTwoVectors(from.col(2), to.col(2)) * from.col(0);
+  const Vector3d x = spatial::rotation_between(from.col(2), to.col(2)) * from.col(0);
   return std::atan2(x.dot(to.col(1)), x.dot(to.col(0)));
 }
 

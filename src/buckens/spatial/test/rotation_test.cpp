@@ -80,6 +80,25 @@ TEST(Rotation, LeftJacobianRateIsTheAngularAccelerationOfUniformRates) {
   EXPECT_EQ(left_jacobian_rate(kTheta, Vector3d::Zero()), Vector3d::Zero());
 }
 
+TEST(Rotation, BetweenDirectionsIsTheShortest) {
+  const Eigen::Vector3d a(1, 2, -0.5), b(-0.3, 4, 2), across = a.cross(b).normalized();
+  const Eigen::Quaterniond q = rotation_between(a, b);
+  EXPECT_LT((q * a.normalized() - b.normalized()).norm(), 1e-15);
+  EXPECT_LT((q * across - across).norm(), 1e-15);
+  // Opposite directions leave the axis open, but not the angle.
+  const Eigen::Quaterniond half = rotation_between(a, -2 * a);
+  EXPECT_LT((half * a + a).norm(), 1e-14);
+  EXPECT_NEAR(std::abs(half.w()), 0, 1e-15);
+}
+
+TEST(Rotation, SpinOfABarHasNoneAboutIt) {
+  const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, 2) / 3, w(3, -1, 0.5);
+  const Eigen::Matrix3d J = 0.2 * (Eigen::Matrix3d::Identity() - axis * axis.transpose());
+  EXPECT_LT((spin_of(J, J * w) - (w - axis * axis.dot(w))).norm(), 1e-14);
+  const Eigen::Matrix3d full = J + 0.01 * axis * axis.transpose();
+  EXPECT_LT((spin_of(full, full * w) - w).norm(), 1e-13);
+}
+
 TEST(Pose, ComposesAndInverts) {
   const Pose X_AB{{1, 2, 3}, exp_rotation(kTheta)};
   const Pose X_BC{{-0.4, 0.1, 0.7}, exp_rotation(kRate)};
