@@ -13,8 +13,8 @@ import h5py
 import numpy
 import pytest
 
-from test_save_state import (BLOCK, CABLES, CONTROL, CLEARANCE, ELBOW, GROUPED, HEAP, LAWS, MORE, PAIRS, RIGID, SLIDER_CRANK,
-                             model)
+from test_save_state import (BLOCK, CABLES, CONTROL, CLEARANCE, ELBOW, GROUPED, HEAP, LAWS, MESHING, MORE, PAIRS, RIGID, ROUGH,
+                             SLIDER_CRANK, model)
 
 # Long enough to be killed on the way (about a second), with a checkpoint every few milliseconds.
 FREQUENT = "--set", "simulation.checkpoint=5 ms"
@@ -31,6 +31,8 @@ CASES = {
     "cables": model(CABLES, step="tolerance: 1e-7").replace("0.3 s", "0.8 s"),
     "cams, grips": model(MORE).replace("0.4 s", "4 s"),
     "controllers": model(CONTROL, step="method: newmark").replace("60 ms", "0.8 s"),
+    "rigid friction": model(ROUGH).replace("0.6 s", "20 s"),
+    "events that attach": model(MESHING).replace("0.4 s", "2 s"),
     "impacts, step control": ELBOW.replace("duration: 2 s", "duration: 20 s"),
 }
 

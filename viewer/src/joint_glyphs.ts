@@ -213,6 +213,18 @@ function rolling(material: THREE.Material): THREE.Object3D {
   return new THREE.Group().add(wheel, new THREE.Mesh(axle, solid(kDark)), plate);
 }
 
+/** A pin through a plate with a long hole, across z; the curve itself is drawn as a shape. */
+function slot(material: THREE.Material): THREE.Object3D {
+  const group = new THREE.Group();
+  for (const y of [-0.75, 0.75]) {
+    const edge = new THREE.Mesh(new THREE.BoxGeometry(4, 0.4, 0.4), solid(kDark));
+    edge.position.y = y;
+    group.add(edge);
+  }
+  const pin = new THREE.CylinderGeometry(0.5, 0.5, 1.8, 20).rotateX(Math.PI / 2);
+  return group.add(new THREE.Mesh(pin, material));
+}
+
 /** Glyph of a joint by its type, its axis along z; unknown types get an octahedron. */
 export function jointGlyph(type: string, color: THREE.ColorRepresentation): THREE.Object3D {
   const material = solid(color);
@@ -254,6 +266,8 @@ export function jointGlyph(type: string, color: THREE.ColorRepresentation): THRE
       return rack(material);
     case 'belt':
       return belt(material);
+    case 'slot':
+      return slot(material);
     case 'coupler':
       return coupler(material);
     case 'slider-on-beam':
