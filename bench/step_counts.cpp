@@ -17,6 +17,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "machine_texts.h"
 #include "models.h"
 #include "solid_block.h"
 #include "stopwatch.h"
@@ -74,6 +75,14 @@ std::vector<Case> cases() {
       {"cables over pulleys", [] { return buckens::bench::start(rope_and_belt(), kStep); }});
   out.push_back(
       {"contacts of many bodies", [] { return buckens::bench::start(rolling_balls(), kStep); }});
+  out.push_back({"rigid stops, friction and ropes",
+                 [] { return buckens::bench::start(rigid_stops_and_ropes(), kStep); }});
+  out.push_back({"rigid contacts with friction",
+                 [] { return buckens::bench::start(rigid_contacts(), kStep); }});
+  out.push_back({"surface of a solid on a plane",
+                 [] { return buckens::bench::start(surface_on_a_plane(), kStep); }});
+  out.push_back(
+      {"motors and signals", [] { return buckens::bench::start(motors_and_signals(), kStep); }});
   out.push_back(
       {"rigid chain, 100 links", [] { return buckens::bench::start(rigid_chain(100), kStep); }});
   return out;
