@@ -14,7 +14,7 @@ cd "$here"
 . tools/setup.sh
 
 # Beside what the build needs: the module is imported for its pages.
-buckens_packages+=(python3-sphinx python3-myst-parser furo doxygen)
+buckens_packages+=(python3-sphinx python3-myst-parser furo doxygen libjs-katex)
 buckens_setup
 if [ ! -e build/release/python/buckens/objects.py ] || ! compgen -G "build/release/python/buckens/_core*.so" >/dev/null; then
   configure_release -DBUCKENS_PYTHON_MODULE=ON
@@ -25,9 +25,9 @@ fi
 pages="$(mktemp -d)"
 trap 'rm -rf "$pages"' EXIT
 say "Pages of the C++ library"
-# The public headers: all that include/buckens/buckens.h includes.
-headers="$(clang++-14 -std=c++20 -MM -Iinclude -Isrc -Ibuild/release/generated -isystem /usr/include/eigen3 include/buckens/buckens.h |
-  tr -s ' \\\n' '\n' | grep '\.h$' | tr '\n' ' ')"
+# The public headers: all of ours that include/buckens/buckens.h includes. -MG: those of libraries need not be found.
+headers="$(clang++-14 -x c++ -std=c++20 -MM -MG -Iinclude -Isrc -Ibuild/release/generated -isystem /usr/include/eigen3 include/buckens/buckens.h |
+  tr -s ' \\\n' '\n' | grep -E '^(include|src)/.*\.h$' | tr '\n' ' ')"
 sed -e "s,@OUTPUT@,$pages," -e "s,@HEADERS@,$headers," docs/site/Doxyfile.in >"$pages/Doxyfile"
 doxygen "$pages/Doxyfile" >/dev/null
 rm "$pages/Doxyfile"

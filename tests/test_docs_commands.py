@@ -40,6 +40,7 @@ ELSEWHERE = {
     "npm run build": ("cmake/build_viewer.cmake", "run --silent build"),
     "npm test": ("cmake/BuckensViewer.cmake", "ITEMS test test:page"),
     "npm run test:page": ("cmake/BuckensViewer.cmake", "ITEMS test test:page"),
+    "./docs.sh": ("tests/test_docs_site.py", 'SOURCE / "docs.sh"'),
     "tools/census.py": ("tests/test_census.py", '"census.py"'),
 }
 # What no test executes, and why.

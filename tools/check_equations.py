@@ -3,8 +3,8 @@
 """Checks that every equation tag in the sources is explained in the theory pages.
 
 `FM (n)` is an equation of Fischer & Mangler (1991): lists and ranges such as `FM (25), (26)` and
-`FM (22)–(24)` count with all their numbers. `eq. (L1)` is an equation of Buckens' own, labelled at
-the end of a line in docs/theory.
+`FM (22)–(24)` count with all their numbers. `eq. (L1)` is an equation of Buckens' own, labelled by
+`\\tag{L1}` in docs/theory.
 """
 
 import argparse
@@ -17,7 +17,7 @@ LAST_EQUATION = 57
 PAPER = re.compile(r"FM\s*\((\d+)\)((?:\s*(?:,|–|-|and)\s*(?:///?\s*)?\(\d+\))*)")
 FURTHER = re.compile(r"(,|–|-|and)\s*(?:///?\s*)?\((\d+)\)")
 OWN = re.compile(r"\beqs?\.\s*\(([A-Z]\d+)\)")
-LABEL = re.compile(r"\s\(([A-Z]\d+)\)\s*$", re.MULTILINE)
+LABEL = re.compile(r"\\tag\{([A-Z]\d+)\}")
 SOURCE = re.compile(r"(src|apps|verification|bench)/.+\.(h|cpp)$")
 
 

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Pages: links, headings, pictures and paths that they name exist; every page of docs/ is reached from
-docs/README.md, every example from docs/tutorials/README.md; no table is torn by an empty line. No file
-holds a path of one machine or a mark of unfinished work."""
+docs/README.md, every example from docs/tutorials/README.md; no table is torn by an empty line; formulas
+are written so that every viewer of Markdown passes them on unharmed. No file holds a path of one machine
+or a mark of unfinished work."""
 
 import argparse
 import os
@@ -20,6 +21,13 @@ OWN_PATH = re.compile(r"`((?:src|tests|verification|examples|docs|bench|tools|ap
 ANY_NAME = re.compile(r"[A-Z]{4,}(?![a-z])")
 TORN_TABLE = re.compile(r"^\|.*\|\n\n(?=\|.*\|\n(?!\|[-:| ]+\|\n))", re.MULTILINE)
 
+CODE = re.compile(r"`[^`\n]*`")
+# Formulas: between $$ on lines of their own, and in lines. docs/developers/writing.md has the rules.
+DISPLAYED = re.compile(r"^\$\$\n(.*?)\n\$\$$", re.DOTALL | re.MULTILINE)
+INLINE = re.compile(r"(?<![\\$])\$([^$\n]+)\$(?!\$)")
+WORDS = re.compile(r"\\(?:text|tag\*?)\{[^{}]*\}")
+HARMED = re.compile(r"\\[^A-Za-z\s\\]|[<>]|[^\x00-\x7f]")
+
 TEXT = re.compile(r"\.(h|cpp|py|sh|cmake|ts|mjs|js|css|html|md|yaml|yml|json|inp|bdf|geo|csv|toml)$"
                   r"|(^|/)(CMakeLists\.txt|NOTICE|CITATION\.cff)$")
 # Written so that this file does not contain what it searches for.
@@ -33,9 +41,32 @@ def anchor(heading):
     return re.sub(r"[^\w\- ]", "", text.lower()).replace(" ", "-")
 
 
+def blanked(match):
+    """Spaces for what was found; line numbers are kept."""
+    return re.sub(r"[^\n]", " ", match.group(0))
+
+
 def blank_fences(text):
-    """Removes blocks of code; line numbers are kept."""
-    return FENCE.sub(lambda match: re.sub(r"[^\n]", " ", match.group(0)), text)
+    """Removes blocks of code."""
+    return FENCE.sub(blanked, text)
+
+
+def formula_faults(text):
+    """(offset, what is wrong) of the formulas of a page without its fences."""
+    text = CODE.sub(blanked, text)
+    for kind in (DISPLAYED, INLINE):
+        for match in kind.finditer(text):
+            formula = WORDS.sub("", match.group(1))
+            for sign in HARMED.findall(formula):
+                yield match.start(), f"`{sign}` in a formula may get lost; write a command of letters, such as \\lbrace or \\lt"
+            line_start = text.rfind("\n", 0, match.start()) + 1
+            if kind is INLINE and text.startswith("|", line_start) and "|" in formula:
+                yield match.start(), "| in a formula divides the row of a table; write \\vert"
+            if kind is INLINE and re.search(r"[^\s(|*]$", text[line_start:match.start()]):
+                yield match.start(), "a formula begins after a space or an opening bracket, or GitHub shows its source"
+        text = kind.sub(blanked, text)
+    for match in re.finditer(r"^.*\$\$.*$", text, re.MULTILINE):
+        yield match.start(), "$$ stands on a line of its own before and after a formula"
 
 
 def exists(names, path):
@@ -76,6 +107,8 @@ def check_page(root, names, page):
             report(match.start(), f"there is no {match.group(1)}")
     for match in TORN_TABLE.finditer(text):
         report(match.end(), "an empty line tears the table; remove it or give the rows a head")
+    for offset, fault in formula_faults(text):
+        report(offset, fault)
     return errors, targets
 
 

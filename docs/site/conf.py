@@ -7,6 +7,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "docs" / "site"))
 sys.path.insert(0, os.environ.get("BUCKENS_PYTHON_PATH", str(ROOT / "build" / "release" / "python")))
 
 project = "Buckens"
@@ -14,9 +15,12 @@ author = "the Buckens developers"
 copyright = author  # noqa: A001  # Sphinx's name for it
 release = (ROOT / "VERSION").read_text(encoding="utf-8").strip()
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx.ext.mathjax"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "formulas"]
 myst_heading_anchors = 4
-myst_enable_extensions = []
+myst_enable_extensions = ["deflist", "dollarmath"]
+myst_dmath_allow_labels = False
+myst_dmath_allow_space = False
+html_math_renderer = "katex"
 # Pages link to sources, folders and models as on a forge; these are not documents.
 suppress_warnings = ["myst.header", "myst.xref_missing"]
 source_suffix = {".md": "markdown"}
@@ -31,7 +35,7 @@ html_theme = "furo"
 html_title = f"Buckens {release}"
 html_copy_source = False
 html_show_sourcelink = False
-html_static_path = []
+html_static_path = ["static"]
 html_extra_path = [path for path in [os.environ.get("BUCKENS_CPP_PAGES", "")] if path]
 
 

@@ -46,7 +46,8 @@ class Checks(unittest.TestCase):
 
 
 class Equations(Checks):
-    THEORY = {"docs/theory/01-kinematics.md": "s = s0    FM (1), (2)\nf = F t      (L1)\nFM (22)–(24)\n"}
+    THEORY = {"docs/theory/01-kinematics.md": "$$\ns = s_0 \\tag*{FM (1), (2)}\n$$\n\n"
+                                           "$$\nf = F t \\tag{L1}\n$$\n\nFM (22)–(24), (L3)\n"}
 
     def test_explained_tags_pass(self):
         self.expect("check_equations.py", {
@@ -66,6 +67,11 @@ class Equations(Checks):
         self.expect("check_equations.py",
                     {**self.THEORY, "src/buckens/fem/beam.h": "#pragma once\n// eq. (L2)\n"},
                     "beam.h:2: eq. (L2) labels no equation")
+
+    def test_a_mention_is_no_label(self):
+        self.expect("check_equations.py",
+                    {**self.THEORY, "src/buckens/fem/beam.h": "#pragma once\n// eq. (L3)\n"},
+                    "beam.h:2: eq. (L3) labels no equation")
 
 
 class Floors(Checks):
@@ -208,6 +214,18 @@ class Pages(Checks):
         table = "| a |\n|---|\n| 1 |\n\n| 2 |\n"
         self.expect_pages({"examples/fork/README.md": table}, "README.md:5: an empty line tears")
         self.expect_pages({"examples/fork/README.md": table.replace("| 2 |", "| b |\n|---|\n| 2 |")})
+
+    def test_formulas(self):
+        sound = "A mass $m$ ($m > 0$ no, `$m > 0$`) and $\\lbrace x \\rbrace$:\n\n$$\n\\text{Stoß} \\\\ a \\tag{L1}\n$$\n"
+        self.expect_pages({"examples/fork/README.md": sound.replace("m > 0$ no", "m \\gt 0$ yes")})
+        self.expect_pages({"examples/fork/README.md": sound}, "README.md:1: `>` in a formula may get lost")
+        for text, words in (("a\n\n$$\n\\{x\\}\n$$\n", "README.md:3: `\\{` in a formula"),
+                            ("$ω$\n", "README.md:1: `ω` in a formula"),
+                            ("\n| $|x|$ | 1 |\n", "README.md:2: | in a formula divides"),
+                            ("non-$x$\n", "README.md:1: a formula begins after a space"),
+                            ("\n$$x = 1$$\n", "README.md:2: $$ stands on a line of its own"),
+                            ("$$\nx = 1\n", "README.md:1: $$ stands on a line of its own")):
+            self.expect_pages({"examples/fork/README.md": text}, words)
 
     def test_machine_paths_and_unfinished_marks(self):
         for text, words in (("# see /ho" "me/me/x", "one machine"), ("# TO" "DO later", "unfinished")):
