@@ -8,6 +8,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/travel.h"
 #include "buckens/loads/contact_friction.h"
+#include "buckens/loads/coordinate_law.h"
 
 namespace buckens::dynamics {
 
@@ -16,10 +17,18 @@ namespace {
 // A measured angle jumps at π; without memory the side is unknown.
 constexpr double kLargestUncounted = 3.0;
 
+/// Where the memory is that of a state of rest: how a load stands there, else null.
+const loads::RowStand* stand_at_rest(std::size_t load, const Circumstances& around) {
+  if (around.memory == nullptr || around.memory->at_rest.empty()) return nullptr;
+  return &around.memory->at_rest[load];
+}
+
 /// How the rigid row of a law stands.
-loads::RowStand stand_of(const model::Load& load, const Circumstances& around,
+loads::RowStand stand_of(const model::Model& model, std::size_t k, const Circumstances& around,
                          const double* states) {
+  const model::Load& load = model.loads[k];
   if (around.stands != nullptr) return (*around.stands)[static_cast<std::size_t>(load.rigid_row)];
+  if (const loads::RowStand* stand = stand_at_rest(k, around)) return *stand;
   if (states == nullptr) return {};
   return {static_cast<int>(states[0]), states[1]};
 }
@@ -33,7 +42,7 @@ spatial::Wrench reaction_of(const model::Model& model, std::size_t load,
   const auto force_of = [&](std::size_t k) {
     const model::Load& own = model.loads[k];
     const bool has_memory = around.memory != nullptr && around.memory->laws.size() > 0;
-    return stand_of(own, around,
+    return stand_of(model, k, around,
                     has_memory ? around.memory->laws.data() + own.first_state : nullptr)
         .force;
   };
@@ -56,7 +65,7 @@ void tell_rest(const model::Model& model, std::size_t load, const Circumstances&
     sight.states = around.memory->laws.data() + own.first_state;
   }
   if (own.rigid_row >= 0) {
-    sight.stand = stand_of(own, around, sight.states);
+    sight.stand = stand_of(model, load, around, sight.states);
     const auto* friction = dynamic_cast<const loads::ContactFriction*>(own.element.get());
     if (friction != nullptr) sight.reaction = reaction_of(model, load, around, sight, *friction);
   }
@@ -181,7 +190,13 @@ loads::Action action_of(const model::Model& model, std::size_t load, double t,
   if (model.loads[load].coordinate < 0 && element.num_states() == 0 && !element.uses_signals()) {
     return element.evaluate(t, first, second);
   }
-  return element.respond(sight_of(model, load, t, around, first, second, travel));
+  const loads::Sight sight = sight_of(model, load, t, around, first, second, travel);
+  const loads::RowStand* const stand = stand_at_rest(load, around);
+  const bool has_coordinate = model.loads[load].coordinate >= 0;
+  if (stand != nullptr && stand->regime != 0 && has_coordinate && model.loads[load].rigid_row < 0) {
+    return loads::along_coordinate(sight.coordinate, stand->force);  // frozen friction
+  }
+  return element.respond(sight);
 }
 
 }  // namespace buckens::dynamics

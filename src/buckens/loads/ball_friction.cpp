@@ -119,6 +119,10 @@ void BallFriction::append_slopes(const Sight& sight, std::vector<spatial::Wrench
   }
 }
 
+double BallFriction::most_at_rest(const Sight& sight) const {
+  return bound_.at(bound_.data().radius * sight.reaction.force.norm(), 0.0);
+}
+
 void BallFriction::start_states(const Sight& sight, double* states) const {
   Sight fresh = sight;
   fresh.states = nullptr;

@@ -63,10 +63,13 @@ class CoordinateBrake final : public RateHold {
  public:
   explicit CoordinateBrake(base::SignalLaw bound) : bound_(std::move(bound)) {}
 
+  /// The most that it holds [N m] or [N].
+  double bound(const Sight& sight) const { return bound_.value(sight.t, sight.signals); }
+
   bool uses_signals() const override { return bound_.uses_signals(); }
 
  private:
-  double most(const Sight& sight) const override { return bound_.value(sight.t, sight.signals); }
+  double most(const Sight& sight) const override { return bound(sight); }
 
   base::SignalLaw bound_;
 };

@@ -39,6 +39,8 @@ class FrictionBound {
   double coefficient(double rate) const;
   /// b = μ N + b₀ at this load and rate [N] or [N m].
   double at(double load, double rate) const { return coefficient(rate) * load + data_.preload; }
+  /// The same at rest.
+  double most_at_rest(const Sight& sight) const { return at(load(sight), 0.0); }
   const FrictionData& data() const { return data_; }
 
  private:
@@ -60,6 +62,7 @@ class JointFriction final : public CoordinateLaw, public ReactionFollower {
   void start_states(const Sight& sight, double* states) const override;
 
   void append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const override;
+  double most_at_rest(const Sight& sight) const override { return bound_.most_at_rest(sight); }
 
   double load(const Sight& sight) const { return bound_.load(sight); }
 
@@ -99,6 +102,7 @@ class BristleFriction final : public ForceElement, public ReactionFollower {
   int num_soft_rows() const override { return 1; }
   void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const override;
   void append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const override;
+  double most_at_rest(const Sight& sight) const override { return bound_.most_at_rest(sight); }
   int num_states() const override { return 2; }
   void find_states(const Sight& sight, double* states) const override;
 
@@ -124,6 +128,7 @@ class RigidFriction final : public RigidLaw, public ReactionFollower {
   /// Sticks at rest, slides where it moves.
   void start_states(const Sight& sight, double* states) const override;
   void append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const override;
+  double most_at_rest(const Sight& sight) const override { return bound_.most_at_rest(sight); }
 
  private:
   RigidRow row(const Sight& sight) const override;

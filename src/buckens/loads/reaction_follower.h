@@ -15,6 +15,10 @@ class ReactionFollower {
   /// Appends, for each soft row of the law, the derivatives of the force along it by torque and
   /// force of the reaction. Used only for the tangent of the step's iteration.
   virtual void append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const = 0;
+
+  /// The most that it holds at rest under the reaction [N] or [N m]; zero of laws that only rub
+  /// where something moves.
+  virtual double most_at_rest(const Sight& /*sight*/) const { return 0.0; }
 };
 
 }  // namespace buckens::loads

@@ -63,7 +63,7 @@ RigidRow RigidStop::row(const Sight& sight) const {
   out.holds_position = true;
   out.next = sight.stand;
   if (!out.is_closed) return out;
-  out.gap = sight.coordinate.value - (regime == 1 ? from_ : to_);
+  out.gap = sight.coordinate.value - end(regime);
   out.slip = sight.coordinate.rate;
   // A stop never pulls.
   const bool pulls = regime == 1 ? sight.stand.force < 0.0 : sight.stand.force > 0.0;

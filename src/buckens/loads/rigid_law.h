@@ -72,6 +72,8 @@ class RigidStop final : public RigidLaw {
       : from_(from), to_(to), restitution_(restitution), threshold_(threshold) {}
 
   Contact contact(double value) const override;
+  /// Value of the coordinate at the end that a regime holds [m] or [rad].
+  double end(int regime) const { return regime == 1 ? from_ : to_; }
   double restitution(double approach) const override {
     return approach > threshold_ ? restitution_ : 0.0;
   }

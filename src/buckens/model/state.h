@@ -52,6 +52,9 @@ struct RowMemory {
   std::vector<NearPair> near;  ///< ascending
   linalg::Vector near_states;  ///< of their contacts, one after the other
   double near_time = 0;        ///< when they were found [s]
+  /// In statics, which have no states of laws: how rows stand that hold at rest, and what frozen
+  /// friction holds with, one entry per Model::loads. Empty in motion.
+  std::vector<loads::RowStand> at_rest;
   /// What events have switched off: one entry per Model::loads and Model::joints; empty: nothing.
   std::vector<char> off, released;
 

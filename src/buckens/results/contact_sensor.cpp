@@ -44,7 +44,10 @@ class ContactSensor final : public Sensor {
       const loads::Sight sight =
           dynamics::sight_of(now.model, k, now.state.t, circumstances_of(now), first, second);
       if (const auto* elastic = dynamic_cast<const loads::Contact*>(load.element.get())) {
-        return elastic->read(sight);
+        loads::ContactReading touching = elastic->read(sight);
+        const auto& at_rest = now.state.memory.at_rest;
+        if (!at_rest.empty()) touching.friction = at_rest[k].force;  // frozen
+        return touching;
       }
       const auto& law = static_cast<const loads::RigidLaw&>(*load.element);
       const loads::Action action = law.respond(sight);

@@ -2,6 +2,7 @@
 #include "buckens/analysis/initial/prepare.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,10 +20,14 @@
 #include "buckens/dynamics/constraints.h"
 #include "buckens/dynamics/row_memory.h"
 #include "buckens/dynamics/signals.h"
+#include "buckens/dynamics/travel.h"
 
 namespace buckens::analysis {
 
 namespace {
+
+// A rate below this share of the model's length, or of 1 rad, per second is rounding.
+constexpr double kStandsStill = 1e-12;
 
 std::vector<std::string> describe_redundancy(const model::Model& model,
                                              const model::RowMemory& memory,
@@ -69,18 +74,54 @@ std::vector<char> released_at_start(const model::BuiltModel& built) {
   return out;
 }
 
+/// Loads that do not act at the start; empty if there are none.
+std::vector<char> off_at_start(const model::BuiltModel& built) {
+  std::vector<char> out;
+  const auto& loads = built.model.loads;
+  for (const std::string& name : built.description.initial.off) {
+    out.resize(loads.size(), 0);
+    for (std::size_t k = 0; k < loads.size(); ++k) {
+      if (loads[k].name == name) out[k] = 1;
+    }
+  }
+  return out;
+}
+
 /// What rows and laws remember as the motion begins.
 model::RowMemory memory_at_start(const model::BuiltModel& built,
                                  const std::vector<dynamics::BodyMotion>& motions) {
   const model::Model& model = built.model;
   model::RowMemory out = dynamics::start_memory(model, motions, released_at_start(built));
-  for (const std::string& name : built.description.initial.off) {
-    out.off.resize(model.loads.size(), 0);
-    for (std::size_t k = 0; k < model.loads.size(); ++k) {
-      if (model.loads[k].name == name) out.off[k] = 1;
-    }
-  }
+  out.off = off_at_start(built);
   return out;
+}
+
+/// Rigid rows that press in the equilibrium from which the motion starts are closed, unless it
+/// starts with a speed there.
+void close_rows(const model::Model& model, const RestStands& at_rest,
+                const std::vector<dynamics::BodyMotion>& motions, model::RowMemory& memory) {
+  if (at_rest.empty()) return;
+  for (std::size_t k = 0; k < model.loads.size(); ++k) {
+    const model::Load& load = model.loads[k];
+    if (load.rigid_row < 0 || at_rest[k].regime == 0) continue;
+    const double rate = dynamics::coordinate_motion(
+                            model, static_cast<std::size_t>(load.coordinate), &memory, motions)
+                            .rate;
+    if (std::abs(rate) > kStandsStill * model.length) continue;
+    memory.laws[load.first_state] = at_rest[k].regime;
+    memory.laws[load.first_state + 1] = at_rest[k].force;
+  }
+}
+
+/// Moves bodies to the equilibrium from which the motion starts. @return how its rows stand
+RestStands settle_at_rest(const model::BuiltModel& built, const dynamics::MassMetric& metric,
+                          Prepared& out) {
+  const StaticReport report =
+      find_static_equilibrium(built.model, metric, out.state, built.description.initial.friction);
+  out.setup_factorisations = report.factorisations;
+  out.warnings.insert(out.warnings.end(), report.warnings.begin(), report.warnings.end());
+  out.notes.insert(out.notes.end(), report.notes.begin(), report.notes.end());
+  return std::exchange(out.state.memory.at_rest, {});
 }
 
 bool have_laws_of_reactions(const model::Model& model) {
@@ -105,6 +146,7 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
   out.notes = model.notes;
   out.state = model::placed_state(model);
   out.released = out.state.memory.released = released_at_start(built);
+  out.state.memory.off = off_at_start(built);
   bool is_closed = false;
   try {
     assemble_positions(model, metric, out.state);
@@ -125,13 +167,11 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
       out.warnings.push_back(std::move(text));
     }
   }
+  RestStands at_rest;
   const bool is_static = initial.start == model::StartKind::static_equilibrium;
-  if (is_static || initial.preload) {
-    const StaticReport report = find_static_equilibrium(model, metric, out.state);
-    out.setup_factorisations = report.factorisations;
-    out.notes.insert(out.notes.end(), report.notes.begin(), report.notes.end());
-  }
+  if (is_static || initial.preload) at_rest = settle_at_rest(built, metric, out);
   if (set_initial_displacements(built, out.state)) {
+    at_rest.clear();
     assemble_positions(model, metric, out.state, built.starts);
   }
   set_initial_velocities(built, out.state);
@@ -152,6 +192,7 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
   refuse_beyond_stops(model, out.state);
   const auto motions = dynamics::motions_of(model, out.state);
   out.state.memory = memory_at_start(built, motions);
+  close_rows(model, at_rest, motions, out.state.memory);
   count_start_turns(built.starts, model, out.state.memory);
   dynamics::start_signals(model, motions, out.state.t, out.state.memory);  // they see the turns
   settle_rows(model, metric, out.rows_in_use, out.state);

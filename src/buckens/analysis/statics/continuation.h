@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -46,8 +47,8 @@ class StaticContinuation {
   /// @param start an equilibrium
   /// @param force scale F of the system [N]
   StaticContinuation(const model::Model& model, const dynamics::MassMetric& metric,
-                     const std::vector<const ElasticCompliance*>& compliance, double t,
-                     const PathScale& scale, double force);
+                     const RestRows& rest, const std::vector<const ElasticCompliance*>& compliance,
+                     double t, const PathScale& scale, double force);
 
   /// Makes an equilibrium the first point of a path; `sign` says whether μ grows (1) or falls (−1).
   /// @throws NumericalError if the tangent is singular there
@@ -64,6 +65,10 @@ class StaticContinuation {
 
   /// The same point with independent joint rows chosen again: they may change along a path.
   std::optional<PathPoint> with_new_rows(const PathPoint& at);
+
+  /// The place nearby where a row of RestRows opens or closes, and the path beyond it, which may go
+  /// back from there: what softens meets a stop. Empty if no row is about to change.
+  std::optional<PathPoint> around_corner(const PathPoint& at);
 
   /// Cosine of the angle between the path's directions, weighted like a step.
   double alignment(const PathPoint& a, const PathPoint& b) const;
@@ -83,21 +88,42 @@ class StaticContinuation {
     linalg::Vector x;
     double load_factor = 0;
   };
+  /// A row that is about to open or close, and how far away [full steps].
+  struct Corner {
+    std::size_t row = 0;
+    double ahead = HUGE_VAL;
+  };
+  Corner nearest_corner(const PathPoint& at);
+  /// What is zero at a corner: the gap of an open row, the force of a closed one, growing into what
+  /// the row does beyond it.
+  struct CornerValue {
+    double value = 0;
+    linalg::Vector slope;
+  };
+  CornerValue corner_value(std::size_t row, const StaticPoint& point,
+                           const StaticBalance& balance) const;
+  bool lead_on(PathPoint& at);
   void choose_rows(const StaticPoint& point);
   Plane plane(const PathPoint& at) const;
   Plane load_plane() const;
   linalg::Vector load_derivative(const StaticPoint& point) const;
-  bool factorise(const StaticPoint& point, const StaticBalance& balance, const Plane& plane);
+  bool factorise(const StaticPoint& point, const linalg::Vector& load_derivative,
+                 const Plane& plane, double give);
+  /// A step in the plane, with the rows closed in `point` that are closed after it.
+  bool solve_step(StaticPoint& point, const StaticBalance& balance, const Plane& plane,
+                  linalg::Vector& step, double give = StaticSystem::kGive);
   StaticPoint moved(const StaticPoint& point, const linalg::Vector& step) const;
   std::optional<PathPoint> correct(StaticPoint point, const Plane& plane, double longest);
   void polish_and_lead_on(PathPoint& at, const Plane& plane);
   double motion(const linalg::Vector& x) const;
   double misfit(const linalg::Vector& residual) const;
-  bool is_balanced(const StaticPoint& point, const linalg::Vector& residual) const;
+  bool is_balanced(const StaticPoint& point, const StaticBalance& balance,
+                   const linalg::Vector& residual) const;
   void remember_resistance(const StaticPoint& point, const linalg::Vector& residual);
 
   const model::Model& model_;
   const dynamics::MassMetric& metric_;
+  const RestRows& rest_;
   const std::vector<const ElasticCompliance*>& compliance_;
   double t_;
   PathScale scale_;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "buckens/analysis/statics/rest_pivots.h"
 #include "buckens/analysis/statics/state.h"
 #include "buckens/analysis/statics/tolerances.h"
 #include "buckens/base/errors.h"
@@ -30,17 +31,19 @@ constexpr double kFarFromBalance = 1e-2;  // of the largest force: only there st
 constexpr double kLeastInertia = 1e-9;  // of relevant σ: keeps directions without stiffness at rest
 // A force that moves no point by this fraction of the model's length is rounding: an unloaded path
 // starts with multipliers of that size.
-constexpr double kNoMotion = 1e-18;
+constexpr double kMovesNothing = 1e-18;
 constexpr double kFarTurned = 40.0;  // rad
 constexpr double kFarMoved = 20.0;   // model lengths
 
 }  // namespace
 
 StaticDescent::StaticDescent(const model::Model& model, const dynamics::MassMetric& metric,
+                             const RestRows& rest,
                              const std::vector<const ElasticCompliance*>& compliance, double t,
                              StaticPoint start)
     : model_(model),
       metric_(metric),
+      rest_(rest),
       compliance_(compliance),
       t_(t),
       point_(std::move(start)),
@@ -53,7 +56,7 @@ StaticDescent::StaticDescent(const model::Model& model, const dynamics::MassMetr
 
 void StaticDescent::set_scales() {
   const double L = model_.length;
-  force_ = start_force_ = strongest_load(model_, point_, t_);
+  force_ = start_force_ = strongest_load(model_, rest_, point_, t_);
   double softest = 0.0;
   for (std::size_t b = 0; b < compliance_.size(); ++b) {
     if (compliance_[b] == nullptr || compliance_[b]->interface().size() == 0) continue;
@@ -62,9 +65,9 @@ void StaticDescent::set_scales() {
     const Eigen::VectorXd answers = compliance_[b]->interface().diagonal();
     softest = std::max(softest, answers.cwiseProduct(lengths.cwiseAbs2()).maxCoeff());
   }
-  no_force_ = softest > 0.0 ? kNoMotion * L / softest : 0.0;
+  no_force_ = softest > 0.0 ? kMovesNothing * L / softest : 0.0;
   if (force_ <= no_force_) force_ = softest > 0.0 ? 1e-3 * L / softest : 1.0;
-  StaticSystem all(model_, compliance_, {}, t_, force_);
+  StaticSystem all(model_, rest_, compliance_, {}, t_, force_);
   const StaticBalance balance = all.balance(point_);
   double fastest = 0.0;
   double heaviest = 0.0;
@@ -84,13 +87,13 @@ void StaticDescent::choose_rows() {
         "static equilibrium: the joints keep changing which of their equations are dependent (a "
         "dead centre); start from another position");
   }
-  StaticSystem all(model_, compliance_, {}, t_, force_);
+  StaticSystem all(model_, rest_, compliance_, {}, t_, force_);
   const StaticBalance balance = all.balance(point_);
   const std::vector<int> rows = metric_.split(balance.constraints.rows).independent;
   for (int k = 0; k < model_.num_constraint_rows(); ++k) {
     if (!std::binary_search(rows.begin(), rows.end(), k)) point_.lambda[k] = 0.0;
   }
-  system_.emplace(model_, compliance_, rows, t_, force_);
+  system_.emplace(model_, rest_, compliance_, rows, t_, force_);
   lu_.reset();
   evaluate();
 }
@@ -98,7 +101,7 @@ void StaticDescent::choose_rows() {
 void StaticDescent::evaluate() {
   balance_ = system_->balance(point_);
   residual_ = system_->residual(point_, balance_);
-  largest_force_ = std::max(start_force_, strongest_load(model_, point_, t_));
+  largest_force_ = std::max(start_force_, strongest_load(model_, rest_, point_, t_));
 }
 
 double StaticDescent::force_residual() const {
@@ -111,8 +114,14 @@ double StaticDescent::misfit() const {
                    system_->largest(residual_, Share::elastic)});
 }
 
+double StaticDescent::force_tolerance() const {
+  return kForceTolerance * largest_force_ + force_rounding_ + no_force_;
+}
+
 bool StaticDescent::is_balanced() const {
-  return force_residual() <= kForceTolerance * largest_force_ + force_rounding_ + no_force_ &&
+  return force_residual() <= force_tolerance() &&
+         rest_.deepest(balance_.rest, point_.rest) <= closed_share(model_, point_) &&
+         rest_.strongest_pull(point_.rest) <= force_tolerance() &&
          system_->largest(residual_, Share::joint) <= closed_share(model_, point_) &&
          system_->largest(residual_, Share::elastic) <=
              kForceTolerance * system_->largest_deformation(point_) + 1e-15;
@@ -120,8 +129,11 @@ bool StaticDescent::is_balanced() const {
 
 void StaticDescent::run() {
   sigma_ = std::max(sigma_, 0.1 * reference_);
+  bool has_shared = rest_.size() < 2;
   for (;;) {
     if (is_balanced()) {
+      if (!has_shared) share_loads();
+      has_shared = true;
       polish();
       check_dependent_rows();
       if (is_balanced()) return;
@@ -142,7 +154,9 @@ void StaticDescent::run() {
       kMaxDescentIterations, force_residual(), largest_force_,
       system_->share(static_cast<int>(worst)) == Share::frame
           ? describe_motion(model_, *system_, point_, where)
-          : "joints do not close"));
+      : system_->share(static_cast<int>(worst)) == Share::joint
+          ? system_->owner_at(static_cast<int>(worst)) + " does not close"
+          : "bodies deform"));
 }
 
 bool StaticDescent::factorise(const SparseMatrix& tangent) {
@@ -156,11 +170,8 @@ bool StaticDescent::factorise(const SparseMatrix& tangent) {
 Vector StaticDescent::find_step() {
   system_->linearise(point_, balance_);
   for (int attempt = 0; attempt < 30; ++attempt) {
-    const SparseMatrix tangent = system_->tangent(sigma_);
-    Vector step = -residual_;
-    const bool regular = factorise(tangent);
-    if (regular) lu_->solve_in_place(step);
-    if (regular && step.allFinite() && !leads_uphill(tangent, step)) {
+    Vector step;
+    if (solve_step(step) && !leads_uphill(system_->tangent(sigma_, point_.rest), step)) {
       return std::min(1.0, kLongestStep / motion_size(step)) * step;
     }
     if (attempt == 15) {  // more inertia does not help: other rows may
@@ -173,6 +184,36 @@ Vector StaticDescent::find_step() {
   throw NumericalError(
       "static equilibrium: the equations are singular whatever the inertia added (a dead centre of "
       "the joints); start from another position");
+}
+
+/// The step of the linear equations at the present σ, with the rows closed that are closed after
+/// it.
+bool StaticDescent::solve_step(Vector& step, double give) {
+  rest_.follow_contacts(balance_.rest, point_.rest);
+  RestPivots pivots(*system_);
+  do {
+    residual_ = system_->residual(point_, balance_);
+    step = -residual_;
+    if (!factorise(system_->tangent(sigma_, point_.rest, give))) return false;
+    lu_->solve_in_place(step);
+    if (!step.allFinite()) return false;
+  } while (pivots.revise(balance_, step, point_));
+  return true;
+}
+
+/// Finds the forces of rows anew, in place.
+void StaticDescent::share_loads() {
+  const StaticPoint before = point_;
+  rest_.share(balance_.rest, point_.rest);
+  evaluate();
+  system_->linearise(point_, balance_);
+  Vector step;
+  if (solve_step(step, StaticSystem::kGiveOfSharing)) {
+    point_ = system_->moved(point_, system_->forces_of(step));
+  } else {
+    point_ = before;
+  }
+  evaluate();
 }
 
 bool StaticDescent::leads_uphill(const SparseMatrix& tangent, const Vector& step) const {
@@ -230,13 +271,11 @@ void StaticDescent::polish() {
     const StaticPoint best = point_;
     const double before = misfit();
     system_->linearise(point_, balance_);
-    const SparseMatrix tangent = system_->tangent(sigma_);
-    Vector step = -residual_;
-    if (before == 0.0 || !factorise(tangent)) return;
-    lu_->solve_in_place(step);
+    Vector step;
+    if (before == 0.0 || !solve_step(step)) return;
     // A step that is no longer small shows that the direction has no stiffness.
-    if (!step.allFinite() || motion_size(step) > kLongestStep) return;
-    point_ = system_->moved(best, step);
+    if (motion_size(step) > kLongestStep) return;
+    point_ = system_->moved(point_, step);
     evaluate();
     if (misfit() < 0.5 * before) continue;
     if (misfit() > before) {
@@ -283,22 +322,38 @@ void StaticDescent::check_travel() const {
 void StaticDescent::refuse(const std::string& motion) const {
   throw ModelError(fmt::format(
       "no static equilibrium: under its loads {} and nothing holds it ({:.3g} N stay unbalanced); "
-      "add a joint or a spring that carries this load, remove the load, or start `as-given`",
-      motion, force_residual()));
+      "add a joint or a spring that carries this load, remove the load, {}or start `as-given`",
+      motion, force_residual(),
+      rest_.leaves_friction() ? "hold what rubs by `friction: frozen`, " : ""));
+}
+
+/// Rows that touch without a force hold nothing back.
+RestStands StaticDescent::loaded_rows() const {
+  RestStands out = point_.rest;
+  rest_.open_unloaded(force_tolerance(), out);
+  return out;
 }
 
 std::optional<StaticModes> StaticDescent::modes() {
   system_->linearise(point_, balance_);
-  return static_modes(*system_, reference_);
+  return static_modes(*system_, reference_, loaded_rows());
 }
 
 std::optional<StaticModes> StaticDescent::softest() {
   system_->linearise(point_, balance_);
-  return softest_mode(*system_, reference_);
+  return softest_mode(*system_, reference_, loaded_rows());
 }
 
 void StaticDescent::push(const Vector& shape, double amount, double stiffness) {
   Vector step = shape * (amount / motion_size(shape));
+  // Rather away from what touches.
+  double deepest = 0.0;
+  for (std::size_t k = 0; k < rest_.size(); ++k) {
+    if (!rest_.touches(k, balance_.rest)) continue;
+    const double gap = balance_.rest.contacts[k].sign * system_->gap_change(k, step);
+    if (std::abs(gap) > std::abs(deepest)) deepest = gap;
+  }
+  if (deepest < 0.0) step = -step;
   for (int k = 0; k < system_->size(); ++k) {
     if (system_->share(k) == Share::joint) step[k] = 0.0;
   }

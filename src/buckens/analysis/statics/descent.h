@@ -19,7 +19,7 @@ namespace buckens::analysis {
 /// curvature), so that Newton takes over only near an equilibrium.
 class StaticDescent {
  public:
-  StaticDescent(const model::Model& model, const dynamics::MassMetric& metric,
+  StaticDescent(const model::Model& model, const dynamics::MassMetric& metric, const RestRows& rest,
                 const std::vector<const ElasticCompliance*>& compliance, double t,
                 StaticPoint start);
 
@@ -37,6 +37,9 @@ class StaticDescent {
 
   const StaticSystem& system() const { return *system_; }
   const StaticPoint& point() const { return point_; }
+  const StaticBalance& balance() const { return balance_; }
+  /// A force that is none [N].
+  double force_tolerance() const;
   int iterations() const { return iterations_; }
   double force_residual() const;
   double largest_force() const { return largest_force_; }
@@ -51,6 +54,9 @@ class StaticDescent {
   double misfit() const;
   bool factorise(const linalg::SparseMatrix& tangent);
   linalg::Vector find_step();
+  bool solve_step(linalg::Vector& step, double give = StaticSystem::kGive);
+  void share_loads();
+  RestStands loaded_rows() const;
   bool leads_uphill(const linalg::SparseMatrix& tangent, const linalg::Vector& step) const;
   double motion_size(const linalg::Vector& step) const;
   void advance(const linalg::Vector& step);
@@ -61,6 +67,7 @@ class StaticDescent {
 
   const model::Model& model_;
   const dynamics::MassMetric& metric_;
+  const RestRows& rest_;
   const std::vector<const ElasticCompliance*>& compliance_;
   double t_;
   StaticPoint point_, start_;

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "buckens/analysis/initial/stop_check.h"
 #include "buckens/analysis/statics/descent.h"
+#include "buckens/analysis/statics/friction_demand.h"
 #include "buckens/analysis/statics/stability.h"
 #include "buckens/analysis/statics/state.h"
 #include "buckens/base/errors.h"
@@ -51,6 +51,17 @@ void note_large_rotations(const model::Model& model, const model::State& state,
   }
 }
 
+void note_unloaded(const RestRows& rest, const StaticDescent& descent,
+                   std::vector<std::string>& notes) {
+  const std::string names =
+      rest.unloaded(descent.balance().rest, descent.point().rest, descent.force_tolerance());
+  if (names.empty()) return;
+  notes.push_back(
+      fmt::format("loads {} touch without pressing; stability and small vibrations are those "
+                  "without them",
+                  names));
+}
+
 /// Those without restoring force: any combination of them is as good as the first.
 linalg::Matrix free_motions(const StaticModes& modes) {
   Eigen::Index count = 0;
@@ -86,29 +97,39 @@ void settle_statically(const model::Model& model, StaticDescent& descent, Static
 }
 
 StaticReport find_static_equilibrium(const model::Model& model, const dynamics::MassMetric& metric,
-                                     model::State& state) {
+                                     model::State& state, model::RestFriction friction) {
   StaticReport report;
   const Compliances compliances(model);
   report.factorisations = static_cast<int>(compliances.owned.size());
   note_laws_of_time(model, state.t, report.notes);
-  StaticDescent descent(model, metric, compliances.of_body, state.t, static_point(model, state));
+  const RestRows rest(model, friction, state);
+  StaticDescent descent(model, metric, rest, compliances.of_body, state.t,
+                        static_point(model, rest, state));
+  report.warnings = rest.overlaps(descent.balance().rest);
   settle_statically(model, descent, report);
   const StaticPoint& point = descent.point();
   const StaticBalance balance = descent.system().balance(point);
-  set_static_state(point, balance.forces, compliances, state);
-  refuse_beyond_stops(model, state);
+  set_static_state(point, rest, balance, compliances, state);
+  report.rest = point.rest;
+  note_unloaded(rest, descent, report.notes);
+  for (std::string& text :
+       overloaded_friction(friction_demands(model, metric, rest, point.rest, state))) {
+    report.warnings.push_back(std::move(text));
+  }
   for (const auto& compliance : compliances.owned) report.solves += compliance->num_solves();
   note_large_rotations(model, state, report.notes);
   report.iterations = descent.iterations();
   report.force_residual = descent.force_residual();
   report.largest_force = descent.largest_force();
+  report.force_tolerance = descent.force_tolerance();
   report.position_residual =
       point.lambda.size() > 0 ? balance.constraints.g.cwiseAbs().maxCoeff() : 0.0;
   return report;
 }
 
-StaticReport find_static_equilibrium(const model::Model& model, model::State& state) {
-  return find_static_equilibrium(model, dynamics::MassMetric(model), state);
+StaticReport find_static_equilibrium(const model::Model& model, model::State& state,
+                                     model::RestFriction friction) {
+  return find_static_equilibrium(model, dynamics::MassMetric(model), state, friction);
 }
 
 }  // namespace buckens::analysis

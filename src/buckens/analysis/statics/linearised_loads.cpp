@@ -74,7 +74,8 @@ BodyLists colors_of(const BodyLists& neighbours) {
 
 }  // namespace
 
-LinearisedLoads::LinearisedLoads(const model::Model& model) : model_(model) {
+LinearisedLoads::LinearisedLoads(const model::Model& model, const RestRows* rest)
+    : model_(model), rest_(rest) {
   neighbours_.of = neighbours_of(model);
   neighbours_.colors = colors_of(neighbours_.of);
   for (const body::Body& body : model.bodies) {
@@ -129,8 +130,7 @@ Vector LinearisedLoads::gradient(const BodyRow& part) const {
   return out;
 }
 
-Vector LinearisedLoads::loads_after(const std::vector<BodyMotion>& motions, double t,
-                                    const Vector& lambda, double load_factor,
+Vector LinearisedLoads::loads_after(const std::vector<BodyMotion>& motions, const Acting& acting,
                                     const Vector& step) const {
   std::vector<BodyMotion> moved = motions;
   for (std::size_t b = 0; b < moved.size(); ++b) {
@@ -145,10 +145,15 @@ Vector LinearisedLoads::loads_after(const std::vector<BodyMotion>& motions, doub
   }
   dynamics::Forces forces;
   dynamics::Constraints constraints;
-  const model::RowMemory memory = dynamics::memory_at_rest(model_, moved, lambda);
-  dynamics::evaluate_constraints(model_, moved, t, &memory, constraints);
-  dynamics::evaluate_forces(model_, moved, t, forces, load_factor);
-  dynamics::add_joint_forces(constraints, lambda, forces);
+  const model::RowMemory memory = dynamics::memory_at_rest(model_, moved, acting.lambda);
+  dynamics::evaluate_constraints(model_, moved, acting.t, &memory, constraints);
+  dynamics::evaluate_forces(model_, moved, acting.t, forces, acting.load_factor);
+  dynamics::add_joint_forces(constraints, acting.lambda, forces);
+  if (rest_ != nullptr && !acting.stands.empty()) {
+    RestValues values;
+    rest_->evaluate(moved, acting.t, values);
+    rest_->add_forces(values, acting.stands, forces);
+  }
   Vector out(size_);
   for (std::size_t b = 0; b < moved.size(); ++b) {
     const BodyCoordinates& place = bodies_[b];
@@ -162,8 +167,9 @@ Vector LinearisedLoads::loads_after(const std::vector<BodyMotion>& motions, doub
 }
 
 std::vector<LinearisedLoads::Block> LinearisedLoads::stiffness(
-    const std::vector<BodyMotion>& motions, double t, const Vector& lambda,
-    double load_factor) const {
+    const std::vector<BodyMotion>& motions, double t, const Vector& lambda, double load_factor,
+    const RestStands& stands) const {
+  const Acting acting{t, lambda, load_factor, stands};
   const Neighbours neighbours = neighbours_at(motions);
   std::vector<Block> out;
   for (const std::vector<std::size_t>& color : neighbours.colors) {
@@ -180,8 +186,8 @@ std::vector<LinearisedLoads::Block> LinearisedLoads::stiffness(
       for (const std::size_t b : color) {
         if (k < bodies_[b].size()) moved[bodies_[b].first + k] = step(b, k);
       }
-      const Vector change = loads_after(motions, t, lambda, load_factor, moved) -
-                            loads_after(motions, t, lambda, load_factor, -moved);
+      const Vector change =
+          loads_after(motions, acting, moved) - loads_after(motions, acting, -moved);
       for (std::size_t i = first_block; i < out.size(); ++i) {
         Block& block = out[i];
         if (k >= bodies_[block.by].size()) continue;

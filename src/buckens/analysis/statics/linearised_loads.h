@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "buckens/analysis/statics/rest_rows.h"
 #include "buckens/dynamics/system_kinematics.h"
 
 namespace buckens::analysis {
@@ -18,15 +19,17 @@ struct BodyCoordinates {
   int size() const { return num_frame() + rows; }
 };
 
-/// Response of joints and loads to small motions of the bodies: the linearisation for statics,
-/// stability and vibrations. Coordinates s body by body: frame, then interface values.
+/// Response of joints, loads and rows at rest to small motions of the bodies: the linearisation for
+/// statics, stability and vibrations. Coordinates s body by body: frame, then interface values.
 ///
-/// Central differences of the loads and of Gᵀλ with λ held; bodies without common neighbours are
-/// moved together. Steps are 1e-5: in rad for rotations, also of nodes, else relative to the
-/// model's length. That balances rounding (1e-16/step) and curvature (step²) in any unit.
+/// Central differences of the loads, of Gᵀλ and of Jᵀf with λ and f held; bodies without common
+/// neighbours are moved together. Steps are 1e-5: in rad for rotations, also of nodes, else
+/// relative to the model's length. That balances rounding (1e-16/step) and curvature (step²) in any
+/// unit.
 class LinearisedLoads {
  public:
-  explicit LinearisedLoads(const model::Model& model);
+  /// @param rest null: without rows at rest; outlives this object
+  explicit LinearisedLoads(const model::Model& model, const RestRows* rest = nullptr);
 
   /// −∂(loads on one body)/∂(coordinates of another that affects it, or of itself).
   struct Block {
@@ -37,7 +40,8 @@ class LinearisedLoads {
   /// many bodies touch each other.
   /// @param motions at which to linearise; rates are used as given
   std::vector<Block> stiffness(const std::vector<dynamics::BodyMotion>& motions, double t,
-                               const linalg::Vector& lambda, double load_factor = 1.0) const;
+                               const linalg::Vector& lambda, double load_factor = 1.0,
+                               const RestStands& stands = {}) const;
 
   /// Derivatives of a scalar, such as a joint row, with respect to the coordinates of its body.
   linalg::Vector gradient(const dynamics::BodyRow& part) const;
@@ -47,11 +51,18 @@ class LinearisedLoads {
 
  private:
   double step(std::size_t body, int k) const;
-  linalg::Vector loads_after(const std::vector<dynamics::BodyMotion>& motions, double t,
-                             const linalg::Vector& lambda, double load_factor,
+  /// What acts, beside the configuration.
+  struct Acting {
+    double t;
+    const linalg::Vector& lambda;
+    double load_factor;
+    const RestStands& stands;
+  };
+  linalg::Vector loads_after(const std::vector<dynamics::BodyMotion>& motions, const Acting& acting,
                              const linalg::Vector& step) const;
 
   const model::Model& model_;
+  const RestRows* rest_;
   std::vector<BodyCoordinates> bodies_;
   int size_ = 0;
   std::vector<Eigen::VectorXd> lengths_;  // of the interface rows of each body

@@ -33,6 +33,12 @@ constexpr double kSharpTurn = 0.7;            // cosine; the step is repeated at
 constexpr double kSlightTurn = 0.9;           // the next step is not made longer
 constexpr int kIdealIterations = 4;
 constexpr int kMostRefinements = 40;
+constexpr int kMostCorners = 10;  // within one step
+
+bool have_same_rows(const RestStands& a, const RestStands& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const auto& one, const auto& other) { return one.regime == other.regime; });
+}
 
 /// One static path from start to end.
 class Path {
@@ -44,7 +50,11 @@ class Path {
         spec_(built.description.static_path.value_or(StaticSpec{})),
         metric_(model_),
         compliances_(model_),
-        record_(built, metric_, compliances_, spec_.time, sink) {}
+        placed_(assemble()),
+        rest_(model_, spec_.friction, placed_),
+        record_(built, metric_, rest_, compliances_, spec_.time, sink) {
+    record_.summary.warnings = std::move(notes_);
+  }
 
   results::RunSummary run() {
     const auto start = std::chrono::steady_clock::now();
@@ -73,11 +83,13 @@ class Path {
   }
 
  private:
+  model::State assemble();
   void set_up();
   StaticPoint find_start();
   void refuse_mechanism(StaticDescent& descent, double load_factor) const;
   void check_loads(const StaticPoint& start) const;
   void trace();
+  bool turn_corner();
   PathPoint next_point();
   bool take(const PathPoint& next);
   std::optional<PathPoint> refine(const PathPoint& origin, const PathPoint& from,
@@ -97,6 +109,9 @@ class Path {
   StaticSpec spec_;
   dynamics::MassMetric metric_;
   Compliances compliances_;
+  std::vector<std::string> notes_;  // of assembly
+  model::State placed_;
+  RestRows rest_;
   StaticPathRecord record_;
   std::optional<StaticContinuation> continuation_;
   std::optional<PathPoint> now_;
@@ -112,8 +127,8 @@ void Path::set_up() {
   loaded.load_factor = std::max(std::abs(spec_.load_factor[0]), std::abs(spec_.load_factor[1]));
   const PathScale scale{std::abs(range()) / spec_.steps, spec_.arc_step,
                         spec_.method == StaticMethod::load};
-  continuation_.emplace(model_, metric_, compliances_.of_body, spec_.time, scale,
-                        strongest_load(model_, loaded, spec_.time));
+  continuation_.emplace(model_, metric_, rest_, compliances_.of_body, spec_.time, scale,
+                        strongest_load(model_, rest_, loaded, spec_.time));
   now_ = continuation_->begin(start, range() < 0.0 ? -1.0 : 1.0);
   examine(*now_);
   for (const std::string& text : record_.summary.warnings) {
@@ -122,28 +137,34 @@ void Path::set_up() {
   record_.begin(*now_);
 }
 
-StaticPoint Path::find_start() {
+/// Bodies as placed, with joints closed.
+model::State Path::assemble() {
   model::State state = model::placed_state(model_);
   state.t = spec_.time;
-  std::vector<std::string>& notes = record_.summary.warnings;
-  notes = built_.description.warnings;
-  notes.insert(notes.end(), model_.notes.begin(), model_.notes.end());
+  notes_ = built_.description.warnings;
+  notes_.insert(notes_.end(), model_.notes.begin(), model_.notes.end());
   bool is_closed = false;
   try {
     assemble_positions(model_, metric_, state);
     is_closed = true;
   } catch (const ModelError&) {
     if (!built_.description.initial.preload) throw;
-    notes.push_back("bodies are deformed to close the joints (preload)");
+    notes_.push_back("bodies are deformed to close the joints (preload)");
   }
   if (is_closed) {
     for (std::string& text : judge_assembly(built_, assembly_moves(model_, state))) {
-      notes.push_back(std::move(text));
+      notes_.push_back(std::move(text));
     }
   }
-  StaticPoint start = static_point(model_, state);
+  return state;
+}
+
+StaticPoint Path::find_start() {
+  StaticPoint start = static_point(model_, rest_, placed_);
   start.load_factor = spec_.load_factor[0];
-  StaticDescent descent(model_, metric_, compliances_.of_body, spec_.time, std::move(start));
+  StaticDescent descent(model_, metric_, rest_, compliances_.of_body, spec_.time, std::move(start));
+  std::vector<std::string>& notes = record_.summary.warnings;
+  for (std::string& text : rest_.overlaps(descent.balance().rest)) notes.push_back(std::move(text));
   StaticReport report;
   settle_statically(model_, descent, report);
   refuse_mechanism(descent, spec_.load_factor[0]);
@@ -160,10 +181,11 @@ void Path::refuse_mechanism(StaticDescent& descent, double load_factor) const {
   while (count < modes->stiffness.size() && modes->stiffness[count] <= modes->tolerance) ++count;
   throw ModelError(fmt::format(
       "no static path: at load factor {:.6g} {} without any restoring force{}; hold it by a joint "
-      "or a spring, or begin at a load factor at which the load holds it "
+      "or a spring, {}or begin at a load factor at which the load holds it "
       "(static: {{load-factor: [first, last]}})",
       load_factor, describe_motion(model_, descent.system(), descent.point(), modes->shapes.col(0)),
-      count == 1 ? "" : fmt::format(", one of {} such motions", count)));
+      count == 1 ? "" : fmt::format(", one of {} such motions", count),
+      rest_.leaves_friction() ? "or hold what rubs (static: {friction: frozen}), " : ""));
 }
 
 void Path::check_loads(const StaticPoint& start) const {
@@ -171,7 +193,7 @@ void Path::check_loads(const StaticPoint& start) const {
   loaded.load_factor = 1.0;
   StaticPoint unloaded = start;
   unloaded.load_factor = 0.0;
-  const StaticSystem system(model_, compliances_.of_body, {}, spec_.time, 1.0);
+  const StaticSystem system(model_, rest_, compliances_.of_body, {}, spec_.time, 1.0);
   const auto with = system.balance(loaded).forces;
   const auto without = system.balance(unloaded).forces;
   for (std::size_t b = 0; b < with.frame.size(); ++b) {
@@ -212,9 +234,25 @@ bool Path::report(const PathPoint& at, double step) {
   return go_on;
 }
 
+/// Goes on from where a row opens or closes, if that is what ends the path here.
+bool Path::turn_corner() {
+  std::optional<PathPoint> corner = continuation_->around_corner(*now_);
+  if (!corner) return false;
+  corner->stiffness.reset();  // it jumps here
+  const bool turns_back = corner->load_rate * now_->load_rate < 0.0;
+  if (turns_back) corner->kind = "limit point";
+  record_.write(*corner);
+  if (turns_back) record_.add_critical_point(*corner);
+  now_ = std::move(*corner);
+  now_->kind.clear();
+  step_ = 0.125;
+  return true;
+}
+
 /// One step, shortened until Newton gets there without a sharp turn of the path.
 PathPoint Path::next_point() {
   bool has_new_rows = false;
+  int corners = 0;
   for (;;) {
     double step = step_;
     if (spec_.method == StaticMethod::load) {
@@ -235,6 +273,10 @@ PathPoint Path::next_point() {
     }
     step_ = 0.5 * step;
     if (step_ >= kShortestStep) continue;
+    if (corners < kMostCorners && turn_corner()) {
+      ++corners;
+      continue;
+    }
     std::optional<PathPoint> anew;
     if (!has_new_rows) anew = continuation_->with_new_rows(*now_);
     if (!anew) break;
@@ -338,6 +380,7 @@ std::vector<PathPoint> Path::critical_points(const PathPoint& next) {
   if (!from.stiffness || !next.stiffness || from.stiffness->size() != next.stiffness->size()) {
     return out;
   }
+  if (!have_same_rows(from.point.rest, next.point.rest)) return out;  // they change it at once
   const auto unstable = [](const PathPoint& at) { return (at.stiffness->array() < 0.0).count(); };
   const auto fewer = std::min(unstable(from), unstable(next));
   const auto change = std::abs(unstable(from) - unstable(next));

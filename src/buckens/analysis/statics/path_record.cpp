@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "buckens/analysis/initial/stop_check.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
 #include "buckens/spatial/rotation.h"
@@ -50,12 +49,13 @@ std::vector<std::string> column_names(const results::Channel& channel) {
 }  // namespace
 
 StaticPathRecord::StaticPathRecord(const model::BuiltModel& built,
-                                   const dynamics::MassMetric& metric,
+                                   const dynamics::MassMetric& metric, const RestRows& rest,
                                    const Compliances& compliances, double time,
                                    results::RecordSink& sink)
     : built_(built),
       model_(built.model),
       metric_(metric),
+      rest_(rest),
       compliances_(compliances),
       sink_(sink),
       fields_(built),
@@ -142,8 +142,8 @@ results::WorkBalance StaticPathRecord::add_work(const PathPoint& at) {
 }
 
 void StaticPathRecord::write(const PathPoint& at) {
-  set_static_state(at.point, at.balance.forces, compliances_, state_);
-  refuse_beyond_stops(model_, state_);
+  set_static_state(at.point, rest_, at.balance, compliances_, state_);
+  watch_friction(at);
   recorder_->set_load_factor(at.point.load_factor);
   results::Record record = recorder_->record(state_, add_work(at));
   const double unstable =
@@ -176,6 +176,17 @@ void StaticPathRecord::write(const PathPoint& at) {
   }
   last_ = std::move(record);
   has_last_ = true;
+}
+
+void StaticPathRecord::watch_friction(const PathPoint& at) {
+  const std::vector<FrictionDemand> now =
+      friction_demands(model_, metric_, rest_, at.point.rest, state_);
+  friction_.resize(now.size());
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    if (now[k].ratio() > friction_[k].demand.ratio()) {
+      friction_[k] = {now[k], at.point.load_factor};
+    }
+  }
 }
 
 void StaticPathRecord::add_critical_point(const PathPoint& at) {
@@ -218,6 +229,11 @@ void StaticPathRecord::add_body(const model::WholeBody& whole) {
 void StaticPathRecord::finish(double load_factor) {
   summary.static_path->load_factor = load_factor;
   for (const model::WholeBody& whole : model_.wholes) add_body(whole);
+  for (const WorstFriction& worst : friction_) {
+    for (const std::string& text : overloaded_friction({worst.demand})) {
+      summary.trust.push_back(fmt::format("at load factor {:.6g} {}", worst.load_factor, text));
+    }
+  }
   results::NewtonEffort& newton = summary.newton_iterations;
   if (summary.steps > 0) {
     newton.per_step_mean = static_cast<double>(newton.total) / static_cast<double>(summary.steps);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "buckens/analysis/statics/continuation.h"
+#include "buckens/analysis/statics/friction_demand.h"
 #include "buckens/analysis/statics/state.h"
 #include "buckens/model/build/build_model.h"
 #include "buckens/results/field_recorder.h"
@@ -23,7 +24,8 @@ class StaticPathRecord {
  public:
   /// @param time instant of laws of time [s]
   StaticPathRecord(const model::BuiltModel& built, const dynamics::MassMetric& metric,
-                   const Compliances& compliances, double time, results::RecordSink& sink);
+                   const RestRows& rest, const Compliances& compliances, double time,
+                   results::RecordSink& sink);
 
   /// @throws InputError if `stop` does not name a sensor
   void begin(const PathPoint& start);
@@ -42,10 +44,12 @@ class StaticPathRecord {
   void find_stop();
   void watch_stop(double value);
   void add_body(const model::WholeBody& whole);
+  void watch_friction(const PathPoint& at);
 
   const model::BuiltModel& built_;
   const model::Model& model_;
   const dynamics::MassMetric& metric_;
+  const RestRows& rest_;
   const Compliances& compliances_;
   results::RecordSink& sink_;
   results::FieldRecorder fields_;
@@ -62,6 +66,11 @@ class StaticPathRecord {
   std::optional<double> stop_before_;
   bool passed_stop_ = false;
   std::vector<double> largest_rotation_;
+  struct WorstFriction {
+    FrictionDemand demand;
+    double load_factor = 0;
+  };
+  std::vector<WorstFriction> friction_;  // over the path, load by load
 };
 
 }  // namespace buckens::analysis

@@ -30,13 +30,14 @@ constexpr double kZeroStiffness = 1e-9;
 
 }  // namespace
 
-std::optional<StaticModes> static_modes(const StaticSystem& system, double sigma) {
+std::optional<StaticModes> static_modes(const StaticSystem& system, double sigma,
+                                        const RestStands& stands) {
   std::vector<int> frame;
   for (int k = 0; k < system.size(); ++k) {
     if (system.share(k) == StaticSystem::Share::frame) frame.push_back(k);
   }
   if (frame.empty() || frame.size() > kDenseLimit) return std::nullopt;
-  const SparseMatrix A = system.tangent(sigma);
+  const SparseMatrix A = system.tangent(sigma, stands);
   linalg::SparseLu lu(A);
   if (!lu.factorise(A)) return std::nullopt;
   const auto count = static_cast<Eigen::Index>(frame.size());
@@ -79,9 +80,10 @@ std::optional<StaticModes> static_modes(const StaticSystem& system, double sigma
   return modes;
 }
 
-std::optional<StaticModes> softest_mode(const StaticSystem& system, double sigma) {
+std::optional<StaticModes> softest_mode(const StaticSystem& system, double sigma,
+                                        const RestStands& stands) {
   constexpr int kRounds = 30;
-  const SparseMatrix A = system.tangent(sigma);
+  const SparseMatrix A = system.tangent(sigma, stands);
   const SparseMatrix W = system.mass();
   linalg::SparseLu lu(A);
   if (!lu.factorise(A)) return std::nullopt;

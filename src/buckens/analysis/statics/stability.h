@@ -19,14 +19,17 @@ struct StaticModes {
 /// meshes following statically. A is the tangent of the last linearise(), symmetrised.
 ///
 /// Dense in the frame coordinates, one solve each.
-/// @param sigma shift > 0 of the order of the relevant κ [1/s²]
+/// @param sigma shift > 0 of the order of the relevant κ [1/s²], @param stands closed rows of
+/// RestRows count as joints
 /// @return empty above 600 frame coordinates, or if A + σW is singular
-std::optional<StaticModes> static_modes(const StaticSystem& system, double sigma);
+std::optional<StaticModes> static_modes(const StaticSystem& system, double sigma,
+                                        const RestStands& stands);
 
 /// Only the softest of these motions, by inverse iteration: for any number of frame coordinates.
 /// Accurate to a few digits, which distinguishes a mechanism from a soft spring.
 /// @return empty if A + σW is singular
-std::optional<StaticModes> softest_mode(const StaticSystem& system, double sigma);
+std::optional<StaticModes> softest_mode(const StaticSystem& system, double sigma,
+                                        const RestStands& stands);
 
 /// "(0, 0, 1)": a unit vector to three digits.
 std::string direction_text(const Eigen::Vector3d& direction);

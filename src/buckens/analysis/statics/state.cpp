@@ -19,7 +19,8 @@ Compliances::Compliances(const model::Model& model) {
   }
 }
 
-StaticPoint static_point(const model::Model& model, const model::State& state) {
+StaticPoint static_point(const model::Model& model, const RestRows& rest,
+                         const model::State& state) {
   StaticPoint point;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const body::Body& body = model.bodies[b];
@@ -27,10 +28,13 @@ StaticPoint static_point(const model::Model& model, const model::State& state) {
     point.y.push_back(body.row_values(state.bodies[b].d).head(body.num_interface_rows()));
   }
   point.lambda = Vector::Zero(model.num_constraint_rows());
+  RestValues values;
+  rest.evaluate(motions_at(model, point), state.t, values);
+  point.rest = rest.start(values);
   return point;
 }
 
-void set_static_state(const StaticPoint& point, const dynamics::Forces& forces,
+void set_static_state(const StaticPoint& point, const RestRows& rest, const StaticBalance& balance,
                       const Compliances& compliances, model::State& state) {
   for (std::size_t b = 0; b < state.bodies.size(); ++b) {
     model::BodyState& s = state.bodies[b];
@@ -40,10 +44,11 @@ void set_static_state(const StaticPoint& point, const dynamics::Forces& forces,
     for (Vector* rate : {&s.d_dot, &s.d_ddot, &s.d_alg}) rate->setZero(s.d.size());
     s.frame.X_WB = point.poses[b];
     if (const ElasticCompliance* compliance = compliances.of_body[b]) {
-      s.d = compliance->columns() * forces.interface[b];
+      s.d = compliance->columns() * balance.forces.interface[b];
     }
   }
   state.lambda = point.lambda;
+  state.memory.at_rest = rest.of_loads(balance.rest, point.rest);
   state.history = 0;
   state.lambda_time = state.t;
 }
@@ -84,8 +89,9 @@ double spring_rounding(const model::Model& model,
   return out;
 }
 
-double strongest_load(const model::Model& model, const StaticPoint& point, double t) {
-  double largest = 0.0;
+double strongest_load(const model::Model& model, const RestRows& rest, const StaticPoint& point,
+                      double t) {
+  double largest = rest.strongest(point.rest);
   const auto count = [&](const spatial::Wrench& wrench, double factor) {
     largest = std::max(
         {largest, factor * wrench.force.norm(), factor * wrench.torque.norm() / model.length});

@@ -18,12 +18,15 @@ struct Compliances {
   explicit Compliances(const model::Model& model);
 };
 
-/// Unknowns of the static problem at a state, multipliers zero, load factor one.
-StaticPoint static_point(const model::Model& model, const model::State& state);
+/// Unknowns of the static problem at a state, multipliers zero, load factor one, rows closed where
+/// they touch.
+StaticPoint static_point(const model::Model& model, const RestRows& rest,
+                         const model::State& state);
 
-/// The state at rest in a configuration: poses, nodal variables d = K⁺f, multipliers.
+/// The state at rest in a configuration: poses, nodal variables d = K⁺f, multipliers, and the
+/// stands of RestRows in its memory.
 /// @param state keeps its time
-void set_static_state(const StaticPoint& point, const dynamics::Forces& forces,
+void set_static_state(const StaticPoint& point, const RestRows& rest, const StaticBalance& balance,
                       const Compliances& compliances, model::State& state);
 
 /// Largest rotation of a node in the body frame [rad]; zero for rigid bodies or without rotations.
@@ -39,8 +42,9 @@ double closed_share(const model::Model& model, const StaticPoint& point);
 /// Force in the springs of a model due to rounding of positions [N].
 double spring_rounding(const model::Model& model, const std::vector<dynamics::BodyMotion>& motions);
 
-/// Largest single force that acts in a configuration [N]: weights, loads, joints; torques count
-/// divided by the model's length.
-double strongest_load(const model::Model& model, const StaticPoint& point, double t);
+/// Largest single force that acts in a configuration [N]: weights, loads, joints, rows at rest;
+/// torques count divided by the model's length.
+double strongest_load(const model::Model& model, const RestRows& rest, const StaticPoint& point,
+                      double t);
 
 }  // namespace buckens::analysis

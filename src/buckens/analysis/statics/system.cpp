@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "buckens/dynamics/row_memory.h"
 #include "buckens/spatial/rotation.h"
 
@@ -18,15 +20,16 @@ using linalg::Triplet;
 using linalg::Vector;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-StaticSystem::StaticSystem(const model::Model& model,
+StaticSystem::StaticSystem(const model::Model& model, const RestRows& rest,
                            const std::vector<const ElasticCompliance*>& compliance,
                            std::vector<int> rows_in_use, double t, double force)
     : model_(model),
+      rest_(rest),
       compliance_(compliance),
       rows_in_use_(std::move(rows_in_use)),
       t_(t),
       force_(force),
-      loads_(model) {
+      loads_(model, &rest) {
   lay_out();
   add_mass();
 }
@@ -66,6 +69,11 @@ void StaticSystem::lay_out() {
     const auto [joint, k] = model_.owner_of_row(row);
     const bool length = joint->rows[static_cast<std::size_t>(k)].is_length();
     add(Share::joint, length ? 1.0 / L : 1.0, length ? force_ : force_ * L);
+  }
+  first_rest_ = static_cast<int>(shares_.size());
+  for (std::size_t k = 0; k < rest_.size(); ++k) {
+    const bool is_angle = rest_[k].is_angle;
+    add(Share::joint, is_angle ? 1.0 : 1.0 / L, is_angle ? force_ * L : force_);
   }
   size_ = static_cast<int>(shares_.size());
   row_scale_ = Eigen::Map<const Vector>(rows.data(), size_);
@@ -112,6 +120,8 @@ StaticBalance StaticSystem::balance(const StaticPoint& point) const {
   dynamics::evaluate_constraints(model_, motions, t_, &memory, out.constraints);
   dynamics::evaluate_forces(model_, motions, t_, out.forces, point.load_factor);
   dynamics::add_joint_forces(out.constraints, point.lambda, out.forces);
+  rest_.evaluate(motions, t_, out.rest);
+  rest_.add_forces(out.rest, point.rest, out.forces);
   return out;
 }
 
@@ -137,19 +147,26 @@ Vector StaticSystem::residual(const StaticPoint& point, const StaticBalance& bal
   for (std::size_t k = 0; k < rows_in_use_.size(); ++k) {
     out[first_multiplier_ + static_cast<int>(k)] = balance.constraints.g[rows_in_use_[k]];
   }
+  for (std::size_t k = 0; k < rest_.size(); ++k) {
+    const int index = first_rest_ + static_cast<int>(k);
+    const loads::RowStand& stand = point.rest[k];
+    out[index] = stand.regime != 0 ? rest_.gap(k, balance.rest, stand.regime)
+                                   : stand.force / (column_scale_[index] * row_scale_[index]);
+  }
   return out.cwiseProduct(row_scale_);
 }
 
 void StaticSystem::linearise(const StaticPoint& point, const StaticBalance& balance) {
   derivatives_.clear();
   add_joint_derivatives(balance);
+  add_rest_derivatives(balance);
   for (std::size_t b = 0; b < first_.size(); ++b) {
     for (int k = num_frame_[b]; k < num_unknowns(b); ++k) {
       put(first_[b] + k, first_[b] + k, 1.0, derivatives_);  // y itself
     }
   }
-  for (auto& block :
-       loads_.stiffness(motions_at(model_, point), t_, point.lambda, point.load_factor)) {
+  for (auto& block : loads_.stiffness(motions_at(model_, point), t_, point.lambda,
+                                      point.load_factor, point.rest)) {
     const int rows = loads_.bodies()[block.on].rows;
     if (rows > 0) {  // y = K⁺ f on the interface
       const Eigen::MatrixXd loads = block.stiffness.bottomRows(rows);
@@ -167,12 +184,33 @@ void StaticSystem::add_joint_derivatives(const StaticBalance& balance) {
   for (std::size_t k = 0; k < rows_in_use_.size(); ++k) {
     const auto& row = balance.constraints.rows[static_cast<std::size_t>(rows_in_use_[k])];
     for (const BodyRow* part : row.parts()) {
-      if (part->body != model::kGround) add_row(k, *part);
+      if (part->body == model::kGround) continue;
+      add_row(first_multiplier_ + static_cast<int>(k), *part, derivatives_, derivatives_);
     }
   }
 }
 
-void StaticSystem::add_row(std::size_t index, const BodyRow& part) {
+void StaticSystem::add_rest_derivatives(const StaticBalance& balance) {
+  closes_.assign(rest_.size(), {});
+  compliances_.assign(rest_.size(), 0.0);
+  for (std::size_t k = 0; k < rest_.size(); ++k) {
+    const int index = first_rest_ + static_cast<int>(k);
+    double elastic = 0.0;
+    for (const BodyRow* part : balance.rest.rows[k].parts()) {
+      if (part->body == model::kGround) continue;
+      add_row(index, *part, closes_[k], derivatives_);
+      const auto b = static_cast<std::size_t>(part->body);
+      if (compliance_[b] == nullptr) continue;
+      const VectorXd y = loads_.gradient(*part).tail(model_.bodies[b].num_interface_rows());
+      elastic += y.dot(compliance_[b]->interface() * y);
+    }
+    elastic *= row_scale_[index] * column_scale_[index];
+    compliances_[k] = elastic > 0.0 ? elastic : 1.0;
+  }
+}
+
+void StaticSystem::add_row(int index, const BodyRow& part, std::vector<Triplet>& closes,
+                           std::vector<Triplet>& acts) const {
   const auto b = static_cast<std::size_t>(part.body);
   const body::Body& body = model_.bodies[b];
   VectorXd interface = VectorXd::Zero(body.num_interface_rows());
@@ -184,21 +222,55 @@ void StaticSystem::add_row(std::size_t index, const BodyRow& part) {
   }
   const VectorXd gradient = loads_.gradient(part);
   const VectorXd response = body_residual(b, part.frame.transpose(), interface);
-  const int multiplier = first_multiplier_ + static_cast<int>(index);
   for (int k = 0; k < gradient.size(); ++k) {
-    put(multiplier, first_[b] + k, gradient[k], derivatives_);
-    put(first_[b] + k, multiplier, response[k], derivatives_);
+    put(index, first_[b] + k, gradient[k], closes);
+    put(first_[b] + k, index, response[k], acts);
   }
 }
 
-SparseMatrix StaticSystem::tangent(double sigma) const {
+SparseMatrix StaticSystem::tangent(double sigma, const RestStands& stands, double give) const {
   std::vector<Triplet> entries = derivatives_;
   for (const Triplet& m : mass_) entries.emplace_back(m.row(), m.col(), sigma * m.value());
+  for (std::size_t k = 0; k < rest_.size(); ++k) {
+    const bool is_closed = stands[k].regime != 0;
+    for (const Triplet& own : closes_[k]) {
+      entries.emplace_back(own.row(), own.col(), is_closed ? own.value() : 0.0);
+    }
+    const int index = first_rest_ + static_cast<int>(k);
+    entries.emplace_back(index, index, is_closed ? give * compliances_[k] : 1.0);
+  }
   for (int k = 0; k < size_; ++k) entries.emplace_back(k, k, 0.0);
   SparseMatrix out(size_, size_);
   out.setFromTriplets(entries.begin(), entries.end());
   out.makeCompressed();
   return out;
+}
+
+Vector StaticSystem::forces_of(const Vector& step) const {
+  Vector out = step;
+  out.head(first_multiplier_).setZero();
+  return out;
+}
+
+double StaticSystem::force_change(std::size_t row, const Vector& step) const {
+  const int index = first_rest_ + static_cast<int>(row);
+  return column_scale_[index] * step[index];
+}
+
+Vector StaticSystem::force_slope(std::size_t row) const {
+  return Vector::Unit(size_, first_rest_ + static_cast<int>(row));
+}
+
+Vector StaticSystem::gap_slope(std::size_t row) const {
+  Vector out = Vector::Zero(size_);
+  for (const Triplet& own : closes_[row]) out[own.col()] += own.value();
+  return out;
+}
+
+double StaticSystem::gap_change(std::size_t row, const Vector& step) const {
+  double out = 0.0;  // scaled
+  for (const Triplet& own : closes_[row]) out += own.value() * step[own.col()];
+  return out / row_scale_[first_rest_ + static_cast<int>(row)];
 }
 
 SparseMatrix StaticSystem::mass() const {
@@ -221,6 +293,7 @@ StaticPoint StaticSystem::moved(const StaticPoint& point, const Vector& step) co
     const int index = first_multiplier_ + static_cast<int>(k);
     out.lambda[rows_in_use_[k]] += column_scale_[index] * step[index];
   }
+  for (std::size_t k = 0; k < rest_.size(); ++k) out.rest[k].force += force_change(k, step);
   return out;
 }
 
@@ -241,9 +314,12 @@ std::size_t StaticSystem::body_at(int index) const {
          1;
 }
 
-const model::Joint& StaticSystem::joint_at(int index) const {
+std::string StaticSystem::owner_at(int index) const {
+  if (index >= first_rest_) {
+    return fmt::format("load \"{}\"", rest_.name(static_cast<std::size_t>(index - first_rest_)));
+  }
   const auto k = static_cast<std::size_t>(index - first_multiplier_);
-  return *model_.owner_of_row(rows_in_use_[k]).first;
+  return fmt::format("joint \"{}\"", model_.owner_of_row(rows_in_use_[k]).first->name);
 }
 
 double StaticSystem::largest_deformation(const StaticPoint& point) const {

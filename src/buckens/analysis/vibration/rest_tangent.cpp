@@ -19,8 +19,13 @@ namespace {
 /// Gathers a RestTangent.
 class AtRest {
  public:
-  AtRest(const model::Model& model, const model::State& state, std::vector<int> rows_in_use)
-      : model_(model), state_(state), rows_in_use_(std::move(rows_in_use)), loads_(model) {
+  AtRest(const model::Model& model, const model::State& state, std::vector<int> rows_in_use,
+         const ClosedRows* closed)
+      : model_(model),
+        state_(state),
+        rows_in_use_(std::move(rows_in_use)),
+        closed_(closed),
+        loads_(model, closed == nullptr ? nullptr : &closed->rest) {
     lay_out();
     motions_ = dynamics::motions_of(model, state);
     for (BodyMotion& motion : motions_) {
@@ -48,12 +53,14 @@ class AtRest {
  private:
   void lay_out();
   void add_joint_rows();
+  void add_row(int number, const dynamics::SystemRow& row, std::vector<Triplet>& to) const;
   void add_springs();
   void add_loads();
 
   const model::Model& model_;
   const model::State& state_;
   std::vector<int> rows_in_use_;
+  const ClosedRows* closed_;
   LinearisedLoads loads_;
   std::vector<BodyMotion> motions_;
   dynamics::Constraints constraints_;
@@ -75,20 +82,31 @@ void AtRest::lay_out() {
   }
 }
 
-void AtRest::add_joint_rows() {
-  std::vector<Triplet> entries;
-  for (std::size_t k = 0; k < rows_in_use_.size(); ++k) {
-    const auto& row = constraints_.rows[static_cast<std::size_t>(rows_in_use_[k])];
-    for (const BodyRow* part : row.parts()) {
-      if (part->body == model::kGround) continue;
-      const Vector own = loads_.gradient(*part);
-      const int first = out_.bodies[static_cast<std::size_t>(part->body)].first;
-      for (int i = 0; i < own.size(); ++i) {
-        if (own[i] != 0.0) entries.emplace_back(static_cast<int>(k), first + i, own[i]);
-      }
+void AtRest::add_row(int number, const dynamics::SystemRow& row, std::vector<Triplet>& to) const {
+  for (const BodyRow* part : row.parts()) {
+    if (part->body == model::kGround) continue;
+    const Vector own = loads_.gradient(*part);
+    const int first = out_.bodies[static_cast<std::size_t>(part->body)].first;
+    for (int i = 0; i < own.size(); ++i) {
+      if (own[i] != 0.0) to.emplace_back(number, first + i, own[i]);
     }
   }
-  out_.rows.resize(static_cast<Eigen::Index>(rows_in_use_.size()), out_.size);
+}
+
+void AtRest::add_joint_rows() {
+  std::vector<Triplet> entries;
+  int count = 0;
+  for (const int row : rows_in_use_) {
+    add_row(count++, constraints_.rows[static_cast<std::size_t>(row)], entries);
+  }
+  if (closed_ != nullptr) {
+    RestValues values;
+    closed_->rest.evaluate(motions_, state_.t, values);
+    for (const int row : closed_->in_use) {
+      add_row(count++, values.rows[static_cast<std::size_t>(row)], entries);
+    }
+  }
+  out_.rows.resize(count, out_.size);
   out_.rows.setFromTriplets(entries.begin(), entries.end());
 }
 
@@ -116,7 +134,8 @@ void AtRest::add_springs() {
 
 void AtRest::add_loads() {
   std::vector<Triplet> entries;
-  for (const auto& block : loads_.stiffness(motions_, state_.t, state_.lambda)) {
+  const RestStands stands = closed_ == nullptr ? RestStands() : closed_->stands;
+  for (const auto& block : loads_.stiffness(motions_, state_.t, state_.lambda, 1.0, stands)) {
     const int row = out_.bodies[block.on].first;
     const int column = out_.bodies[block.by].first;
     for (int j = 0; j < block.stiffness.cols(); ++j) {
@@ -133,8 +152,9 @@ void AtRest::add_loads() {
 }  // namespace
 
 RestTangent rest_tangent(const model::Model& model, const model::State& state,
-                         const std::vector<int>& rows_in_use, RestLoads loads) {
-  return AtRest(model, state, rows_in_use).run(loads);
+                         const std::vector<int>& rows_in_use, RestLoads loads,
+                         const ClosedRows* closed) {
+  return AtRest(model, state, rows_in_use, closed).run(loads);
 }
 
 }  // namespace buckens::analysis

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "buckens/analysis/statics/linearised_loads.h"
+#include "buckens/analysis/statics/rest_rows.h"
 #include "buckens/dynamics/constraints.h"
 #include "buckens/model/state.h"
 
@@ -31,11 +32,19 @@ enum class RestLoads {
   all       ///< derivative of all loads and joint forces, including gravity and preload
 };
 
+/// Rows of force laws that hold at rest, as joints do.
+struct ClosedRows {
+  const RestRows& rest;
+  RestStands stands;
+  std::vector<int> in_use;  ///< closed and independent of joints and each other
+};
+
 /// Linearises joints and loads at rest.
 ///
 /// `all`: as LinearisedLoads; correct if the state is an equilibrium.
-/// @param state velocities are taken as zero
+/// @param state velocities are taken as zero, @param closed null: joints alone
 RestTangent rest_tangent(const model::Model& model, const model::State& state,
-                         const std::vector<int>& rows_in_use, RestLoads loads);
+                         const std::vector<int>& rows_in_use, RestLoads loads,
+                         const ClosedRows* closed = nullptr);
 
 }  // namespace buckens::analysis

@@ -41,6 +41,7 @@ class SystemVibrations {
 
  private:
   void find_position();
+  RestTangent tangent();
   double first_shift(const SystemPencil& pencil) const;
   linalg::InversePairs iterate(SystemPencil& pencil);
   void add_vibration(const SystemPencil& pencil, double theta, const Vector& x);
@@ -53,6 +54,8 @@ class SystemVibrations {
   const SystemVibrationSettings settings_;
   dynamics::MassMetric metric_;
   Matrix zero_;
+  RestStands stands_;    // in the equilibrium
+  double no_force_ = 0;  // [N]
   VibrationReport out_;
 };
 
@@ -73,12 +76,59 @@ void SystemVibrations::find_position() {
     }
   }
   if (settings_.about == RestPosition::static_equilibrium || !is_closed) {
-    const StaticReport report = find_static_equilibrium(model_, metric_, out_.position);
+    const StaticReport report =
+        find_static_equilibrium(model_, metric_, out_.position, initial.friction);
+    out_.notes.insert(out_.notes.end(), report.warnings.begin(), report.warnings.end());
     out_.notes.insert(out_.notes.end(), report.notes.begin(), report.notes.end());
+    stands_ = report.rest;
+    no_force_ = report.force_tolerance;
     out_.work.factorisations += report.factorisations;
     out_.work.solves += report.solves;
   }
   if (settings_.about == RestPosition::initial) out_.position.lambda.setZero();
+}
+
+/// What joints and loads do to small motions. Rows that press are joints.
+RestTangent SystemVibrations::tangent() {
+  const auto motions = dynamics::motions_of(model_, out_.position);
+  dynamics::Constraints constraints;
+  dynamics::evaluate_constraints(model_, motions, out_.position.t, &out_.position.memory,
+                                 constraints);
+  const model::RestFriction friction = built_.description.initial.friction;
+  const RestRows rest(model_, friction, out_.position);
+  RestValues values;
+  rest.evaluate(motions, out_.position.t, values);
+  const bool is_static = settings_.about == RestPosition::static_equilibrium;
+  if (!is_static) {
+    const std::string names = rest.unloaded(values, RestStands(rest.size()), 0.0);
+    if (!names.empty()) {
+      out_.notes.push_back(fmt::format(
+          "loads {} touch, but nothing presses as assembled: they count as open (--about static "
+          "finds what presses)",
+          names));
+    }
+    return rest_tangent(model_, out_.position, metric_.split(constraints.rows).independent,
+                        RestLoads::springs);
+  }
+  ClosedRows closed{rest, stands_, {}};
+  rest.open_unloaded(no_force_, closed.stands);
+  std::vector<int> candidates;
+  std::vector<dynamics::SystemRow> rows = constraints.rows;
+  for (std::size_t k = 0; k < rest.size(); ++k) {
+    if (closed.stands[k].regime == 0) continue;
+    candidates.push_back(static_cast<int>(k));
+    rows.push_back(values.rows[k]);
+  }
+  std::vector<int> joints;
+  const int count = static_cast<int>(constraints.rows.size());
+  for (const int row : metric_.split(rows).independent) {
+    if (row < count) {
+      joints.push_back(row);
+    } else {
+      closed.in_use.push_back(candidates[static_cast<std::size_t>(row - count)]);
+    }
+  }
+  return rest_tangent(model_, out_.position, joints, RestLoads::all, &closed);
 }
 
 double SystemVibrations::first_shift(const SystemPencil& pencil) const {
@@ -229,13 +279,7 @@ VibrationReport SystemVibrations::run() {
   }
   out_.energy_groups.emplace_back("joints and loads");
   find_position();
-  dynamics::Constraints constraints;
-  dynamics::evaluate_constraints(model_, dynamics::motions_of(model_, out_.position),
-                                 out_.position.t, &out_.position.memory, constraints);
-  const std::vector<int> rows_in_use = metric_.split(constraints.rows).independent;
-  const bool is_static = settings_.about == RestPosition::static_equilibrium;
-  const RestTangent tangent = rest_tangent(model_, out_.position, rows_in_use,
-                                           is_static ? RestLoads::all : RestLoads::springs);
+  const RestTangent tangent = this->tangent();
   if (tangent.asymmetry > kUnsymmetric) {
     out_.notes.push_back(fmt::format(
         "loads that follow the motion make the stiffness unsymmetric ({:.1e}); the frequencies "

@@ -10,6 +10,7 @@
 
 #include "buckens/base/expression.h"
 #include "buckens/base/field.h"
+#include "buckens/model/spec/rest_friction.h"
 
 namespace buckens::model {
 
@@ -151,6 +152,7 @@ struct InitialSpec {
   std::vector<InitialBodySpec> bodies;
   std::vector<InitialJointSpec> joints;
   StartKind start = StartKind::as_given;
+  RestFriction friction = RestFriction::free;
   std::vector<std::string> off;       ///< loads
   std::vector<std::string> released;  ///< joints
   bool preload = false;               ///< accept bodies that must be deformed to fit together
@@ -164,6 +166,11 @@ struct InitialSpec {
               .like("{elbow: {angle: 30 deg, speed: 2 rad/s}}"));
     visit(base::field("start", start,
                       "`static` starts in equilibrium under gravity and constant loads"));
+    visit(
+        base::field("friction", friction,
+                    "in the static equilibrium, also that of `modes --about static`: `free` "
+                    "neglects friction; `frozen` holds what rubs, joints, brakes and "
+                    "contacts, where it is, and warns where that takes more than friction gives"));
     visit(base::field("off", off, "loads that do not act until an event switches them on")
               .like("[brake]"));
     visit(base::field("released", released, "joints that hold nothing until an event attaches them")

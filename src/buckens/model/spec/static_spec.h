@@ -7,6 +7,7 @@
 
 #include "buckens/base/field.h"
 #include "buckens/base/source_location.h"
+#include "buckens/model/spec/rest_friction.h"
 
 namespace buckens::model {
 
@@ -43,6 +44,7 @@ struct StaticSpec {
   double arc_step = 0.05;
   int max_points = 1000;
   double time = 0;  ///< [s]
+  RestFriction friction = RestFriction::free;
   std::optional<StaticStopSpec> stop;
 
   template <class Visitor>
@@ -65,6 +67,10 @@ struct StaticSpec {
                       "instant at which the laws of time of loads and drives are evaluated")
               .in(base::kTime)
               .like("1 s"));
+    visit(
+        base::field("friction", friction,
+                    "`free` neglects friction; `frozen` holds what rubs, joints, brakes and "
+                    "contacts, where it is, and warns where that takes more than friction gives"));
     visit(base::field("stop", stop, "ends the path early").otherwise("at the last load factor"));
   }
 };

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/analysis/statics/rest_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "buckens/dynamics/travel.h"
+#include "buckens/loads/ball_friction.h"
+#include "buckens/loads/contact.h"
+#include "buckens/loads/contact_friction.h"
+#include "buckens/loads/coordinate_motor.h"
+
+namespace buckens::analysis {
+
+using Kind = RestRow::Kind;
+
+namespace {
+
+// A gap of this share of the model's length, or of 1 rad, is none.
+constexpr double kTouching = 1e-9;
+// Of rows that share a load: about ten times what closed ones are left with.
+constexpr double kSharing = 1e-11;
+// Overlap at the start that is worth a warning.
+constexpr double kLargeOverlap = 1e-3;
+
+const loads::RigidStop* stop_of(const model::Load& load) {
+  return dynamic_cast<const loads::RigidStop*>(load.element.get());
+}
+
+const loads::RigidStop& stop_at(const model::Model& model, const RestRow& row) {
+  return *stop_of(model.loads[row.load]);
+}
+
+// Soft rows of each spot of an elastic contact with friction: across, then along.
+constexpr int kRowsOfSpot = 3;
+
+/// An elastic contact with friction, else null.
+const loads::Contact* rough_contact(const loads::ForceElement& element) {
+  const auto* contact = dynamic_cast<const loads::Contact*>(&element);
+  return contact != nullptr && contact->data().static_coefficient > 0.0 ? contact : nullptr;
+}
+
+bool rubs(const loads::ForceElement& element) {
+  if (rough_contact(element) != nullptr) return true;
+  return dynamic_cast<const loads::ContactFriction*>(&element) != nullptr ||
+         dynamic_cast<const loads::ReactionFollower*>(&element) != nullptr ||
+         dynamic_cast<const loads::CoordinateBrake*>(&element) != nullptr;
+}
+
+dynamics::SystemRow rest_row_of(const model::Model& model, const model::Load& load,
+                                const dynamics::LoadEnds& ends, const spatial::PairRow& J) {
+  if (!ends.travel) {
+    return dynamics::system_row(model, load.first, ends.first, load.second, ends.second, J);
+  }
+  dynamics::SystemRow out;
+  ends.travel->derive({0.0, 0.0, J.segment<3>(9).transpose()},
+                      model.num_constraint_rows() + load.coordinate, out);
+  return out;
+}
+
+}  // namespace
+
+RestRows::RestRows(const model::Model& model, model::RestFriction friction,
+                   const model::State& state)
+    : model_(model) {
+  for (std::size_t k = 0; k < model.loads.size(); ++k) {
+    const model::Load& load = model.loads[k];
+    if (state.memory.is_off(k)) continue;
+    if (stop_of(load) != nullptr) {
+      RestRow row{Kind::one_sided, k};
+      row.is_angle = model.coordinates[static_cast<std::size_t>(load.coordinate)].law.is_angle();
+      rows_.push_back(row);
+    } else if (friction == model::RestFriction::frozen) {
+      add_friction(state, k);
+    } else if (rubs(*load.element)) {
+      leaves_friction_ = true;
+    }
+  }
+  const auto motions = dynamics::motions_of(model, state);
+  RestValues values;
+  evaluate(motions, state.t, values);
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    if (rows_[k].kind == Kind::held) rows_[k].start = values.values[k];
+  }
+}
+
+void RestRows::add_friction(const model::State& state, std::size_t k) {
+  const model::Load& load = model_.loads[k];
+  const loads::ForceElement* element = load.element.get();
+  RestRow row{Kind::held, k};
+  if (load.coordinate >= 0) {
+    row.is_angle = model_.coordinates[static_cast<std::size_t>(load.coordinate)].law.is_angle();
+  }
+  if (dynamic_cast<const loads::ContactFriction*>(element) != nullptr) {
+    row.kind = Kind::along;
+    row.across = static_cast<int>(rows_.size()) - 1;
+    while (rows_[static_cast<std::size_t>(row.across)].kind != Kind::one_sided) --row.across;
+    rows_.push_back(row);
+  } else if (rough_contact(*element) != nullptr) {
+    row.kind = Kind::along;
+    for (row.part = 0; row.part < element->num_soft_rows(); ++row.part) {
+      if (row.part % kRowsOfSpot != 0) rows_.push_back(row);
+    }
+  } else if (dynamic_cast<const loads::BallFriction*>(element) != nullptr) {
+    row.is_angle = true;
+    for (row.part = 0; row.part < 3; ++row.part) rows_.push_back(row);
+  } else if (dynamic_cast<const loads::ReactionFollower*>(element) != nullptr) {
+    rows_.push_back(row);
+  } else if (const auto* brake = dynamic_cast<const loads::CoordinateBrake*>(element)) {
+    const auto motions = dynamics::motions_of(model_, state);
+    const dynamics::LoadEnds ends = dynamics::ends_of(model_, load, motions, nullptr);
+    if (brake->bound(dynamics::sight_of(model_, k, state.t, {}, ends)) > 0.0) rows_.push_back(row);
+  }
+}
+
+void RestRows::evaluate(const std::vector<dynamics::BodyMotion>& motions, double t,
+                        RestValues& out) const {
+  out.rows.clear();
+  out.values.clear();
+  out.pushes.clear();
+  out.contacts.assign(rows_.size(), {});
+  out.presses.assign(rows_.size(), 0);
+  std::vector<loads::SoftRow> soft;
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const RestRow& row = rows_[k];
+    const model::Load& load = model_.loads[row.load];
+    const dynamics::LoadEnds ends = dynamics::ends_of(model_, load, motions, nullptr);
+    const loads::Sight sight = dynamics::sight_of(model_, row.load, t, {}, ends);
+    spatial::PairRow J = sight.coordinate.J;
+    if (load.coordinate < 0) {
+      soft.clear();
+      load.element->append_tangent(sight, soft);
+      J = soft[static_cast<std::size_t>(row.part)].J;
+      const auto spot = static_cast<std::size_t>(row.part - row.part % kRowsOfSpot);
+      out.presses[k] = soft[spot].stiffness > 0.0 ? 1 : 0;
+    }
+    out.rows.push_back(rest_row_of(model_, load, ends, J));
+    out.values.push_back(sight.coordinate.value);
+    out.pushes.emplace_back(J.segment<3>(9).transpose());
+    if (row.kind == Kind::one_sided) {
+      out.contacts[k] = stop_at(model_, row).contact(sight.coordinate.value);
+    }
+  }
+}
+
+void RestRows::add_forces(const RestValues& values, const RestStands& stands,
+                          dynamics::Forces& out) const {
+  dynamics::Constraints rows;
+  rows.rows = values.rows;
+  linalg::Vector forces(static_cast<Eigen::Index>(rows_.size()));
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    forces[static_cast<Eigen::Index>(k)] = stands[k].force;
+  }
+  dynamics::add_joint_forces(rows, forces, out);
+}
+
+double RestRows::gap(std::size_t k, const RestValues& values, int regime) const {
+  const RestRow& row = rows_[k];
+  if (row.kind == Kind::along) return 0.0;
+  if (row.kind == Kind::held) return values.values[k] - row.start;
+  return values.values[k] - stop_at(model_, row).end(regime);
+}
+
+double RestRows::push(std::size_t k, const loads::RowStand& stand) const {
+  if (rows_[k].kind != Kind::one_sided) return 0.0;
+  return stand.regime == 2 ? -stand.force : stand.force;
+}
+
+bool RestRows::touches(std::size_t k, const RestValues& values) const {
+  return rows_[k].kind == Kind::one_sided && values.contacts[k].gap <= kTouching * length_of(k);
+}
+
+RestStands RestRows::start(const RestValues& values) const {
+  RestStands out(rows_.size());
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    if (touches(k, values)) out[k].regime = values.contacts[k].regime;
+    if (rows_[k].kind == Kind::held) out[k].regime = 1;
+  }
+  follow_contacts(values, out);
+  return out;
+}
+
+void RestRows::share(const RestValues& values, RestStands& stands) const {
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    stands[k].force = 0.0;
+    if (rows_[k].kind != Kind::one_sided || values.contacts[k].gap > kSharing * length_of(k)) {
+      continue;
+    }
+    stands[k].regime = values.contacts[k].regime;
+  }
+  follow_contacts(values, stands);
+}
+
+void RestRows::follow_contacts(const RestValues& values, RestStands& stands) const {
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    if (rows_[k].kind != Kind::along) continue;
+    if (rows_[k].across < 0) {
+      stands[k].regime = values.presses[k];
+      continue;
+    }
+    const auto across = static_cast<std::size_t>(rows_[k].across);
+    stands[k].regime = stands[across].regime != 0 && touches(across, values) ? 1 : 0;
+  }
+}
+
+void RestRows::open_unloaded(double force, RestStands& stands) const {
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    if (rows_[k].kind != Kind::one_sided) continue;
+    if (push(k, stands[k]) * (rows_[k].is_angle ? 1.0 / model_.length : 1.0) <= force) {
+      stands[k].regime = 0;
+    }
+  }
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    if (rows_[k].kind != Kind::along || rows_[k].across < 0) continue;
+    if (stands[static_cast<std::size_t>(rows_[k].across)].regime == 0) stands[k].regime = 0;
+  }
+}
+
+double RestRows::deepest(const RestValues& values, const RestStands& stands) const {
+  double out = 0.0;
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    if (rows_[k].kind != Kind::one_sided || stands[k].regime != 0) continue;
+    out = std::max(out, -values.contacts[k].gap / length_of(k));
+  }
+  return out;
+}
+
+double RestRows::strongest_pull(const RestStands& stands) const {
+  double out = 0.0;
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const double lever = rows_[k].is_angle ? model_.length : 1.0;
+    out = std::max(out, -push(k, stands[k]) / lever);
+  }
+  return out;
+}
+
+double RestRows::strongest(const RestStands& stands) const {
+  double out = 0.0;
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    out = std::max(out, std::abs(stands[k].force) / (rows_[k].is_angle ? model_.length : 1.0));
+  }
+  return out;
+}
+
+RestStands RestRows::of_loads(const RestValues& values, const RestStands& stands) const {
+  RestStands out;
+  if (rows_.empty()) return out;
+  out.resize(model_.loads.size());
+  std::map<std::size_t, Eigen::Vector3d> sums;
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    const std::size_t load = rows_[k].load;
+    if (model_.loads[load].coordinate >= 0) {
+      out[load] = stands[k];
+    } else {
+      sums.try_emplace(load, Eigen::Vector3d::Zero()).first->second +=
+          stands[k].force * values.pushes[k];
+    }
+  }
+  for (const auto& [load, sum] : sums) out[load] = {1, sum.norm()};
+  return out;
+}
+
+std::string RestRows::unloaded(const RestValues& values, const RestStands& stands,
+                               double force) const {
+  std::map<std::string, bool> presses;  // of what touches
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    if (!touches(k, values)) continue;
+    const double lever = rows_[k].is_angle ? model_.length : 1.0;
+    presses[name(k)] = presses[name(k)] || push(k, stands[k]) / lever > force;
+  }
+  std::string out;
+  for (const auto& [name, is_pressed] : presses) {
+    if (!is_pressed) out += fmt::format("{}\"{}\"", out.empty() ? "" : ", ", name);
+  }
+  return out;
+}
+
+std::vector<std::string> RestRows::overlaps(const RestValues& values) const {
+  std::map<std::string, std::pair<double, bool>> deepest;
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    if (rows_[k].kind != Kind::one_sided) continue;
+    const double depth = -values.contacts[k].gap;
+    if (depth <= kLargeOverlap * length_of(k)) continue;
+    auto& worst = deepest[name(k)];
+    worst = {std::max(worst.first, depth), rows_[k].is_angle};
+  }
+  std::vector<std::string> out;
+  for (const auto& [name, worst] : deepest) {
+    out.push_back(
+        fmt::format("load \"{}\" starts {:.3g} {} beyond its end; the static equilibrium begins by "
+                    "pushing it out; place the bodies apart",
+                    name, worst.first, worst.second ? "rad" : "m"));
+  }
+  return out;
+}
+
+}  // namespace buckens::analysis

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "buckens/dynamics/forces.h"
+#include "buckens/loads/rigid_law.h"
+#include "buckens/model/spec/rest_friction.h"
+#include "buckens/model/state.h"
+
+namespace buckens::analysis {
+
+/// A row of a force law that holds at rest without giving way.
+struct RestRow {
+  enum class Kind {
+    one_sided,  ///< an end of a rigid stop, rope, cam or contact: gap ≥ 0, it only pushes
+    held,       ///< frozen friction in a joint, a brake
+    along       ///< frozen friction of a contact along its surface, while it presses
+  };
+  Kind kind = Kind::one_sided;
+  std::size_t load = 0;   ///< index into Model::loads
+  int part = 0;           ///< which of the soft rows of a law with several
+  int across = -1;        ///< of `along`: the row that presses; −1 of elastic contacts
+  bool is_angle = false;  ///< its coordinate, else a length
+  double start = 0;       ///< of `held`: the value that it holds [m] or [rad]
+};
+
+/// Which rows are closed, and with what force: RowStand::regime is the end of a one-sided row, 1 of
+/// others, 0 if open. A row that has been opened keeps its force until the next step takes it away.
+using RestStands = std::vector<loads::RowStand>;
+
+/// The rows in one configuration.
+struct RestValues {
+  std::vector<dynamics::SystemRow> rows;  ///< derivatives
+  std::vector<double> values;             ///< of the coordinates [m] or [rad]
+  std::vector<Eigen::Vector3d> pushes;    ///< what a unit force pushes the second marker with
+  std::vector<loads::RigidLaw::Contact> contacts;  ///< of one-sided rows: the nearer end
+  std::vector<char> presses;                       ///< of elastic contacts: whether the spot does
+};
+
+/// All rows of force laws that hold a mechanism at rest. Theory: docs/theory/12-static-paths.md §5.
+class RestRows {
+ public:
+  /// @param model must outlive this object
+  /// @param state as it starts: loads that are off have no rows, frozen friction holds what is here
+  RestRows(const model::Model& model, model::RestFriction friction, const model::State& state);
+
+  std::size_t size() const { return rows_.size(); }
+  /// Whether the model has friction that is left out.
+  bool leaves_friction() const { return leaves_friction_; }
+  const RestRow& operator[](std::size_t k) const { return rows_[k]; }
+  const std::string& name(std::size_t k) const { return model_.loads[rows_[k].load].name; }
+
+  void evaluate(const std::vector<dynamics::BodyMotion>& motions, double t, RestValues& out) const;
+  /// Adds Jᵀf.
+  void add_forces(const RestValues& values, const RestStands& stands, dynamics::Forces& out) const;
+  /// What a closed row leaves open [m] or [rad].
+  double gap(std::size_t k, const RestValues& values, int regime) const;
+  /// Force that a one-sided row pushes with, whatever its end; negative: it would pull.
+  double push(std::size_t k, const loads::RowStand& stand) const;
+  /// Whether a one-sided row touches, or overlaps.
+  bool touches(std::size_t k, const RestValues& values) const;
+
+  /// Stands at the start: what touches is closed, what friction freezes is held.
+  RestStands start(const RestValues& values) const;
+  /// Closes what touches and takes all forces away, so that rows which share a load share it as
+  /// evenly as they can, whatever led here.
+  void share(const RestValues& values, RestStands& stands) const;
+  /// Friction along a surface holds while what presses is closed and touched before the step, of
+  /// elastic contacts where they overlap.
+  void follow_contacts(const RestValues& values, RestStands& stands) const;
+  /// Opens what is closed without a force worth the name.
+  void open_unloaded(double force, RestStands& stands) const;
+  /// Largest gap below zero of open rows, as a share of the model's length or of 1 rad.
+  double deepest(const RestValues& values, const RestStands& stands) const;
+  /// Largest force with which a closed one-sided row pulls [N].
+  double strongest_pull(const RestStands& stands) const;
+  /// Largest force, torques divided by the model's length [N].
+  double strongest(const RestStands& stands) const;
+
+  /// One entry per load, for the memory of a state: of laws with several rows the size of what they
+  /// push with. @see model::RowMemory::at_rest
+  RestStands of_loads(const RestValues& values, const RestStands& stands) const;
+  /// Names of loads that touch without pressing anywhere, quoted; empty if there are none.
+  std::string unloaded(const RestValues& values, const RestStands& stands, double force) const;
+  /// Warnings about what overlaps by more than a thousandth of the model's length.
+  std::vector<std::string> overlaps(const RestValues& values) const;
+
+ private:
+  void add_friction(const model::State& state, std::size_t load);
+  double length_of(std::size_t k) const { return rows_[k].is_angle ? 1.0 : model_.length; }
+
+  const model::Model& model_;
+  std::vector<RestRow> rows_;
+  bool leaves_friction_ = false;
+};
+
+}  // namespace buckens::analysis
