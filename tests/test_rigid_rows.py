@@ -350,3 +350,39 @@ def test_a_load_falls_into_its_rope(sensors):
 def test_rigid_friction_has_no_slip(buckens, tmp_path):
     (tmp_path / "model.yaml").write_text(INCLINE.replace("static: 0.577, stick: rigid", "static: 0.577, stick: rigid, slip: 1 um"))
     buckens("run", "model.yaml", "-o", "out").must(2, "model.yaml:13", "slip", "stick: rigid")
+
+
+AT_REST = """buckens: 1
+planar: xy
+gravity: [0, -10, 0]
+bodies:
+  body: {rigid: {mass: 0.5 kg, inertia: [0, 0, 1e-3]}, at: {position: [1.2, -0.5, 0]}}
+JOINTS
+loads: {held: LOAD}
+simulation: {duration: 10 ms, step: 1 ms}
+output: {every: 1 ms, sensors: {p: {position: body}, f: FORCE, open: {energy: balance}}}
+"""
+FLOOR = "between: [{ground: [1.2, -0.6, 0]}, body], shapes: [{plane: {normal: [0, 1, 0]}}, "
+WAY = "joints: {way: {prismatic: {between: [{ground: [1.2, -0.5, 0]}, body], axis: [0, 1, 0]}}}"
+
+
+@pytest.mark.parametrize("joints, load, force, sign", [
+    (WAY, "{slide-stop: {joint: way, from: 0 m}}", "{spring-force: held}", -1),
+    ("", "{rope: {between: [{ground: [1.2, 0, 0]}, body], length: 0.5 m}}", "{spring-force: held}", 1),
+    ("", "{contact: {" + FLOOR + "{sphere: 0.1}], restitution: 0.5}}", "{contact: held}", 1),
+    ("", "{contact: {" + FLOOR + "{sphere: 0.1}], static: 0.3}}", "{contact: held}", 1),
+    ("", "{contact: {" + FLOOR + "{box: [0.2, 0.2, 0.2]}], static: 0.3}}", "{contact: held}", 1)])
+def test_what_rests_at_the_start_presses_from_the_start(sensors, joints, load, force, sign):
+    """Not from the end of the first step, which would begin with the acceleration of free fall: g h²/8 of way and a bogus balance."""
+    out = sensors(AT_REST.replace("JOINTS", joints).replace("LOAD", load).replace("FORCE", force))
+    pressing = out["f.normal"] if "f.normal" in out else out["f"]
+    assert pressing == pytest.approx(numpy.full(11, sign * 5.0), rel=1e-9)
+    assert numpy.abs(out["p.y"] + 0.5).max() < 1e-15 and numpy.abs(out["open"]).max() < 1e-14
+
+
+def test_what_touches_and_moves_away_is_let_go(sensors):
+    """A spring that pulls off the stop: the row that touches at the start does not hold it back. Free fall upwards, x = a t²/2."""
+    text = AT_REST.replace("JOINTS", WAY).replace("LOAD", "{slide-stop: {joint: way, from: 0 m}}").replace("FORCE", "{spring-force: held}")
+    out = sensors(text.replace("loads: {", "loads: {up: {force: {on: body, value: [0, 6, 0]}}, "))
+    assert numpy.abs(out["f"]).max() == 0.0
+    assert out["p.y"][-1] == pytest.approx(-0.5 + 0.5 * 2 * 0.01**2, abs=1e-12)

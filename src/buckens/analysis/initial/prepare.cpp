@@ -21,6 +21,7 @@
 #include "buckens/dynamics/row_memory.h"
 #include "buckens/dynamics/signals.h"
 #include "buckens/dynamics/travel.h"
+#include "buckens/loads/rigid_law.h"
 
 namespace buckens::analysis {
 
@@ -28,6 +29,8 @@ namespace {
 
 // A rate below this share of the model's length, or of 1 rad, per second is rounding.
 constexpr double kStandsStill = 1e-12;
+// So is a gap below this share of the model's length, or this angle.
+constexpr double kTouches = 1e-9;
 
 std::vector<std::string> describe_redundancy(const model::Model& model,
                                              const model::RowMemory& memory,
@@ -96,20 +99,29 @@ model::RowMemory memory_at_start(const model::BuiltModel& built,
   return out;
 }
 
-/// Rigid rows that press in the equilibrium from which the motion starts are closed, unless it
-/// starts with a speed there.
+/// Whether a rigid row is at an end of its free way, in which regime; else 0.
+int touched_end(const model::Model& model, const model::Load& load, double value) {
+  const auto contact = static_cast<const loads::RigidLaw&>(*load.element).contact(value);
+  const bool is_angle = model.coordinates[static_cast<std::size_t>(load.coordinate)].law.is_angle();
+  const bool touches = std::abs(contact.gap) <= kTouches * (is_angle ? 1.0 : model.length);
+  return touches ? contact.regime : 0;
+}
+
+/// Closes the rigid rows that press in the equilibrium from which the motion starts, and those that
+/// touch, unless it starts with a speed there. What would pull lets go as the rows settle.
 void close_rows(const model::Model& model, const RestStands& at_rest,
                 const std::vector<dynamics::BodyMotion>& motions, model::RowMemory& memory) {
-  if (at_rest.empty()) return;
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const model::Load& load = model.loads[k];
-    if (load.rigid_row < 0 || at_rest[k].regime == 0) continue;
-    const double rate = dynamics::coordinate_motion(
-                            model, static_cast<std::size_t>(load.coordinate), &memory, motions)
-                            .rate;
-    if (std::abs(rate) > kStandsStill * model.length) continue;
-    memory.laws[load.first_state] = at_rest[k].regime;
-    memory.laws[load.first_state + 1] = at_rest[k].force;
+    if (load.rigid_row < 0 || (!memory.off.empty() && memory.off[k])) continue;
+    const auto motion = dynamics::coordinate_motion(
+        model, static_cast<std::size_t>(load.coordinate), &memory, motions);
+    if (std::abs(motion.rate) > kStandsStill * model.length) continue;
+    const bool presses = !at_rest.empty() && at_rest[k].regime != 0;
+    const int regime = presses ? at_rest[k].regime : touched_end(model, load, motion.value);
+    if (regime == 0) continue;
+    memory.laws[load.first_state] = regime;
+    memory.laws[load.first_state + 1] = presses ? at_rest[k].force : 0.0;
   }
 }
 
