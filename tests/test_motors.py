@@ -117,6 +117,54 @@ initial: {joints: {way: {velocity: 0.2 m/s}}}
     assert out["way.value"] == pytest.approx(0.2 * out["t"] + 1.5 * out["t"] ** 2, abs=1e-12)
 
 
+def test_a_motor_without_gains_follows_an_angle(sensors):
+    """Held exactly, it gives way to a load beyond its limit, and comes back by e' = -e/T."""
+    J, T = 0.05, 0.2
+    out = sensors(wheel("""loads:
+  motor: {hinge-motor: {joint: shaft, angle: "0.4*sin(3*t)", return-time: 200 ms, torque-limit: 3 N m}}
+  load: {torque: {on: wheel, value: [0, 0, "-5*(t > 0.2)*(t < 0.3) N m"]}}
+initial: {joints: {shaft: {speed: 1.2}}}
+""", "1.2 s", "0.5 ms", "5 ms"))
+    t, torque = out["t"], out["torque"]
+    error = 0.4 * numpy.sin(3 * t) - out["shaft.value"]
+    before = t < 0.2
+    # Positions are integrals of the exact speed, by the method: T times the h² of it, (3 h)²/12 of 1.2.
+    assert abs(error[before]).max() < 1e-7
+    # J times the acceleration; the sensor has the sign of a spring.
+    assert torque[before][1:] == pytest.approx(3.6 * J * numpy.sin(3 * t[before][1:]), abs=2e-3)
+    stalls = (t > 0.205) & (t < 0.295)
+    assert torque[stalls] == pytest.approx(-3.0, abs=1e-12)
+    assert numpy.diff(out["shaft.rate"][stalls]) == pytest.approx(-2 / J * 5e-3, abs=1e-9)
+    assert abs(torque).max() <= 3.0
+    # It has the return speed again once it has turned round: from then on the error fades.
+    back = numpy.flatnonzero((t > 0.31) & (abs(torque) < 2.99))[1]
+    assert error[back] > 0.2
+    fades = error[back] * numpy.exp(-(t[back:] - t[back]) / T)
+    # Of second order in h/T: (h/T)² t/(12 T) = 2e-6 of the error, and 1e-7 as before.
+    assert error[back:] == pytest.approx(fades, abs=1e-5 * error[back])
+
+
+def test_a_motor_without_gains_has_a_limit_of_power(sensors):
+    """J w w' = P once P/w is below the limit, 3 N m up to 20 rad/s; then it holds its speed; braking has no such limit."""
+    J, P = 0.05, 60.0
+    out = sensors(wheel("""loads:
+  motor: {hinge-motor: {joint: shaft, speed: "t < 1.6 ? 40 : 25", torque-limit: 3 N m, power-limit: 60 W}}
+""", "2.5 s", "1 ms", "10 ms"))
+    t, rate, torque = out["t"], out["shaft.rate"], out["torque"]
+    full = t < 0.33
+    assert rate[full] == pytest.approx(60 * t[full], abs=1e-9)
+    # From w = 20 at t = 1/3: w² = 400 + 2 P (t - 1/3)/J, up to 40 at 0.833 s.
+    drives = (t > 0.34) & (t < 0.82)
+    # By (h/t)²; the corner lies within a step.
+    assert rate[drives] == pytest.approx(numpy.sqrt(400 + 2 * P / J * (t[drives] - 1 / 3)), rel=2e-5)
+    assert -torque[drives] * rate[drives] == pytest.approx(P, rel=1e-6)
+    holds = (t > 0.85) & (t < 1.59)
+    assert rate[holds] == pytest.approx(40, abs=1e-9) and abs(torque[holds]).max() < 1e-7
+    brakes = (t > 1.61) & (t < 1.84)
+    assert torque[brakes] == pytest.approx(3, abs=1e-12)
+    assert rate[-1] == pytest.approx(25, abs=1e-9)
+
+
 def test_stiff_gains_stall_at_their_limit(sensors):
     """Where the torque leaves its limit depends on 1e-5 of the speed aimed at, and on less with higher gains."""
     for gain in (1e4, 1e6, 1e9):
@@ -172,7 +220,9 @@ output: {every: 1 ms, sensors: {a: {joint-coordinate: a}, b: {joint-coordinate: 
     ("hinge-motor: {joint: shaft, angle: 1, stiffness: 5, speed: 1}", ["without `damping`"]),
     ("hinge-motor: {joint: shaft, speed: 1}", ["without `damping`", "`torque-limit`, which is missing", "`prescribed-rotation`"]),
     ("hinge-motor: {joint: shaft, speed: 1, torque: 2, torque-limit: 5}", ["takes what force that needs", "remove it"]),
-    ("hinge-motor: {joint: shaft, speed: 1, torque-limit: 5, power-limit: 3 W}", ["has a `torque-limit` only"]),
+    ("hinge-motor: {joint: shaft, angle: 1, return-time: 0.1}", ["without `stiffness`", "`torque-limit`, which is missing"]),
+    ("hinge-motor: {joint: shaft, speed: 1, return-time: 0.1, torque-limit: 5}", ["no `angle` to come back to"]),
+    ("hinge-motor: {joint: shaft, angle: 1, stiffness: 3, return-time: 0.1}", ["belongs to a motor without gains"]),
     ("hinge-motor: {joint: shaft, torque: 1, damping: 1}", ["needs a target `speed`"]),
     ("hinge-motor: {joint: shaft, torque: 1, torque-limit: -1}", ["be positive", "torque-limit"]),
     ("slide-motor: {joint: shaft, force: 1}", ["\"shaft\" is a revolute", "no displacement"]),

@@ -8,6 +8,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/drives.h"
+#include "buckens/dynamics/read_motion.h"
 #include "buckens/dynamics/travel.h"
 #include "buckens/model/function_signal.h"
 
@@ -96,6 +97,9 @@ class Evaluation {
       return signal.along.dot(marker(signal.marker).p + model_.origin);
     }
     if (signal.kind == Signal::Kind::velocity) return signal.along.dot(marker(signal.marker).v);
+    if (signal.kind == Signal::Kind::reading) {
+      return read_motion(model_, *signal.reading, motions_, t_, around_);
+    }
     const loads::CoordinateMotion motion = coordinate_motion(
         model_, static_cast<std::size_t>(signal.coordinate), around_.memory, motions_);
     const bool is_shifted = signal.coordinate == shift_.coordinate;
@@ -104,16 +108,25 @@ class Evaluation {
                : motion.rate + (is_shifted ? shift_.rate : 0.0);
   }
 
+  /// Of a law on a joint coordinate, which may be shifted.
+  double force_of(const Signal& signal) const {
+    const auto index = static_cast<std::size_t>(signal.load);
+    const model::Load& load = model_.loads[index];
+    const LoadEnds ends = ends_of(model_, load, motions_, around_.memory);
+    if (load.coordinate != shift_.coordinate) {
+      return action_of(model_, index, t_, around_, ends).along_coordinate;
+    }
+    if (around_.memory != nullptr && around_.memory->is_off(index)) return 0.0;
+    loads::Sight sight = sight_of(model_, index, t_, around_, ends);
+    sight.coordinate.value += shift_.value;
+    sight.coordinate.change += shift_.value;
+    sight.coordinate.rate += shift_.rate;
+    return load.element->respond(sight).along_coordinate;
+  }
+
   double made_value(const Signal& signal, const Vector& x) const {
     if (signal.kind == Signal::Kind::formula) return signal.input.value(t_, out_.values);
-    if (signal.kind == Signal::Kind::force) {
-      const auto index = static_cast<std::size_t>(signal.load);
-      const model::Load& load = model_.loads[index];
-      const LoadEnds ends = ends_of(model_, load, motions_, around_.memory);
-      return action_of(model_, index, t_, around_, ends.first.motion, ends.second.motion,
-                       ends.travels())
-          .along_coordinate;
-    }
+    if (signal.kind == Signal::Kind::force) return signal.factor * force_of(signal);
     if (const model::FunctionSignal* function = model::function_of(signal)) {
       return function->value_at(t_, out_.values);
     }
@@ -278,12 +291,16 @@ void evaluate_signals(const model::Model& model, const std::vector<BodyMotion>& 
 }
 
 void start_signals(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
-                   model::RowMemory& memory) {
+                   model::RowMemory& memory, const std::vector<StateChange>& changes) {
   if (model.signals.empty()) return;
   SignalValues s;
   memory.signals.clear();
   const Circumstances around{nullptr, &memory, nullptr, nullptr, nullptr};
   evaluate_signals(model, motions, t, around, s);
+  if (!changes.empty()) {
+    for (const StateChange& change : changes) s.x[change.state] = change.value;
+    Evaluation(model, motions, t, around, {}, s).evaluate(s.x, s.x_dot);
+  }
   if (take_samples(model, t, s)) {
     Evaluation(model, motions, t, around, {}, s).evaluate(s.x, s.x_dot);
   }
@@ -292,7 +309,7 @@ void start_signals(const model::Model& model, const std::vector<BodyMotion>& mot
 
 void change_states(const model::Model& model, const std::vector<BodyMotion>& motions,
                    const Circumstances& around, const std::vector<StateChange>& changes,
-                   model::RowMemory& memory) {
+                   model::RowMemory& memory, Samples samples) {
   const Eigen::Index n = model.signals.num_states;
   const double t = memory.signals[0];
   SignalValues s;
@@ -300,6 +317,10 @@ void change_states(const model::Model& model, const std::vector<BodyMotion>& mot
   s.x_dot.resize(n);
   for (const StateChange& change : changes) s.x[change.state] = change.value;
   Evaluation(model, motions, t, around, {}, s).evaluate(s.x, s.x_dot);
+  if (samples == Samples::are_due && take_samples(model, t, s)) {
+    Evaluation(model, motions, t, around, {}, s).evaluate(s.x, s.x_dot);
+    require_bounded(model, s);
+  }
   // The rates of the method jump with those of the states.
   const Vector a = memory.blocks.tail(n) + (s.x_dot - memory.blocks.segment(n, n));
   write_memory(model, motions, around, s, a, memory.block_step, memory);
@@ -315,7 +336,7 @@ void advance_signals(const model::Model& model, const std::vector<BodyMotion>& m
   find_method_rates(scheme, *around.memory, h, s);
   Vector& a = s.known;
   a += scheme.share_of_rate() * s.x_dot;
-  if (take_samples(model, t, s)) {
+  if (!model.signals.has_held_readings() && take_samples(model, t, s)) {
     s.rates = s.x_dot;
     Evaluation(model, motions, t, around, {}, s).evaluate(s.x, s.x_dot);
     a += s.x_dot - s.rates;  // what held values drive jumps with them

@@ -35,22 +35,27 @@ void evaluate_signals(const model::Model& model, const std::vector<BodyMotion>& 
                       const Circumstances& around, SignalValues& out,
                       const CoordinateShift& shift = {});
 
-/// Fills the share of signals in a memory that begins, samples at t = 0 taken.
-void start_signals(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
-                   model::RowMemory& memory);
-
 /// A state of a block and the value it is given.
 struct StateChange {
   int state = 0;  ///< among those of all blocks
   double value = 0;
 };
 
+/// Fills the share of signals in a memory that begins, samples at t = 0 taken.
+/// @param changes values that states of blocks have in place of those they start with
+void start_signals(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
+                   model::RowMemory& memory, const std::vector<StateChange>& changes = {});
+
+enum class Samples { are_taken, are_due };
+
 /// Gives states of blocks other values at the instant of the memory; all signals follow.
+/// @param samples whether those of this instant are still to be taken, with these values
 void change_states(const model::Model& model, const std::vector<BodyMotion>& motions,
                    const Circumstances& around, const std::vector<StateChange>& changes,
-                   model::RowMemory& memory);
+                   model::RowMemory& memory, Samples samples = Samples::are_taken);
 
-/// Writes the share of signals in the memory at the end of a step, samples at its end taken.
+/// Writes the share of signals in the memory at the end of a step, samples at its end taken unless
+/// SignalSet::has_held_readings(): these come first, by change_states().
 /// @param around with the memory at its start
 void advance_signals(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                      const Circumstances& around, model::RowMemory& out);

@@ -20,7 +20,9 @@ struct CylindricalSpec : JointEndsAndDirection {
 struct PlanarJointSpec : JointEndsAndDirection {
   static constexpr const char* kKey = "planar";
   static constexpr const char* kDoc =
-      "slides in a plane and rotates about its normal: a face on a face";
+      "slides in a plane and rotates about its normal: a face on a face; its coordinate is the "
+      "angle about the normal";
+  static constexpr bool kTurns = true;
   template <class Visitor>
   void fields(Visitor& visit) {
     direction_fields(visit, "normal of the plane in the first marker's axes");
@@ -51,7 +53,9 @@ struct PointInPlaneSpec : JointEndsAndDirection {
 struct ParallelSpec : JointEndsAndDirection {
   static constexpr const char* kKey = "parallel";
   static constexpr const char* kDoc =
-      "an axis keeps its direction in both bodies; they may translate and rotate about it";
+      "an axis keeps its direction in both bodies; they may translate and rotate about it; its "
+      "coordinate is this angle";
+  static constexpr bool kTurns = true;
   template <class Visitor>
   void fields(Visitor& visit) {
     direction_fields(visit, "direction of the axis in the first marker's axes");

@@ -66,8 +66,9 @@ void RateHold::start_states(const Sight& sight, double* states) const {
 
 RigidRow RateHold::row(const Sight& sight) const {
   const double slip = sight.coordinate.rate - aimed(sight);
-  const double bound = std::max(0.0, most(sight));
   const int regime = sight.stand.regime == 0 ? kHolds : sight.stand.regime;
+  const double pull = regime == kForwards ? -1.0 : regime == kBackwards ? 1.0 : sight.stand.force;
+  const double bound = std::max(0.0, most(sight, pull));
   RigidRow out;
   out.next = sight.stand;
   out.slip = slip;
@@ -90,6 +91,31 @@ RigidRow RateHold::row(const Sight& sight) const {
   out.given = -direction * bound;
   if (direction * slip < 0.0) out.next = {kHolds, out.given};
   return out;
+}
+
+bool CoordinateServo::uses_signals() const {
+  return (data_.position && data_.position->uses_signals()) ||
+         (data_.speed && data_.speed->uses_signals());
+}
+
+double CoordinateServo::aimed(const Sight& sight) const {
+  double out = 0.0;
+  if (data_.speed) out = data_.speed->value(sight.t, sight.signals);
+  if (!data_.position) return out;
+  if (!data_.speed) out = data_.position->rate(sight.t);
+  const double wanted = data_.position->value(sight.t, sight.signals);
+  return out + (wanted - sight.coordinate.value) / data_.return_time;
+}
+
+double CoordinateServo::aimed_acceleration(double t) const {
+  if (data_.speed) return data_.speed->rate(t);
+  return data_.position->formula ? 0.0 : data_.position->law.acceleration(t);
+}
+
+double CoordinateServo::most(const Sight& sight, double force) const {
+  const double rate = sight.coordinate.rate;
+  if (force * rate <= 0.0 || data_.power == HUGE_VAL) return data_.limit;
+  return std::min(data_.limit, data_.power / std::abs(rate));
 }
 
 }  // namespace buckens::loads

@@ -49,8 +49,8 @@ class RateHold : public RigidLaw {
   void start_states(const Sight& sight, double* states) const final;
 
  protected:
-  /// Most that it resists with [N m] or [N]; below zero counts as zero.
-  virtual double most(const Sight& sight) const = 0;
+  /// Most that it resists with in the direction of a force [N m] or [N]; below zero counts as zero.
+  virtual double most(const Sight& sight, double force) const = 0;
   /// Rate that it holds [rad/s] or [m/s].
   virtual double aimed(const Sight& /*sight*/) const { return 0.0; }
 
@@ -69,27 +69,36 @@ class CoordinateBrake final : public RateHold {
   bool uses_signals() const override { return bound_.uses_signals(); }
 
  private:
-  double most(const Sight& sight) const override { return bound(sight); }
+  double most(const Sight& sight, double /*force*/) const override { return bound(sight); }
 
   base::SignalLaw bound_;
 };
 
-/// Motor that has its speed exactly, whatever force that takes, up to a limit.
+/// What an exact motor is told, and how much it can; quantities along its coordinate.
+struct ServoData {
+  std::optional<base::SignalLaw> position;  ///< [rad] or [m]
+  std::optional<base::SignalLaw> speed;  ///< [rad/s] or [m/s]; none: rate of the position, if known
+  double return_time = 0;                ///< [s] > 0 with a position
+  double limit = HUGE_VAL;               ///< [N m] or [N]
+  double power = HUGE_VAL;               ///< [W], while it drives
+};
+
+/// Motor that has its speed exactly, whatever force that takes, up to its limits:
+///
+///     ξ̇ = ξ̇₀ + (ξ₀ − ξ)/T,   |f| ≤ b,   f ξ̇ ≤ P                                       (S5)
 class CoordinateServo final : public RateHold {
  public:
-  /// @param speed [rad/s] or [m/s], @param limit [N m] or [N]
-  CoordinateServo(base::SignalLaw speed, double limit) : speed_(std::move(speed)), limit_(limit) {}
+  explicit CoordinateServo(ServoData data) : data_(std::move(data)) {}
 
-  bool uses_signals() const override { return speed_.uses_signals(); }
+  bool uses_signals() const override;
   bool is_source() const override { return true; }
-  double aimed_acceleration(double t) const override { return speed_.rate(t); }
+  double aimed_acceleration(double t) const override;
 
  private:
-  double most(const Sight& /*sight*/) const override { return limit_; }
-  double aimed(const Sight& sight) const override { return speed_.value(sight.t, sight.signals); }
+  double most(const Sight& sight, double force) const override;
+  double aimed(const Sight& sight) const override;
 
-  base::SignalLaw speed_;
-  double limit_;
+  ServoData data_;
 };
 
 }  // namespace buckens::loads

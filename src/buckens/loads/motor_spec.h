@@ -19,9 +19,10 @@ struct MotorSpec : JointLaw {
   double damping = 0;                       ///< [N m s/rad] or [N s/m]
   std::optional<double> limit;              ///< [N m] or [N]
   std::optional<double> power;              ///< [W]
+  std::optional<double> return_time;        ///< of an exact one with a position [s]
 
-  /// Without gains it has its speed exactly.
-  bool is_exact() const { return speed && stiffness == 0.0 && damping == 0.0; }
+  /// Without gains it has its speed, or its position, exactly.
+  bool is_exact() const { return (speed || return_time) && stiffness == 0.0 && damping == 0.0; }
 
   template <class Visitor>
   void motor_fields(Visitor& visit, bool turns) {
@@ -36,7 +37,8 @@ struct MotorSpec : JointLaw {
               .otherwise("none"));
     visit(base::field(
               turns ? "angle" : "displacement", position,
-              "target of `stiffness`, counted from the position as placed; by time and signals")
+              "target of `stiffness`, or of a `return-time`, counted from the position as placed; "
+              "by time and signals")
               .in(turns ? base::kAngle : base::kLength)
               .like(turns ? "\"0.5*sin(2*t) rad\"" : "\"50*sin(2*t) mm\"")
               .otherwise("none"));
@@ -67,6 +69,17 @@ struct MotorSpec : JointLaw {
               .positive()
               .like("250 W")
               .otherwise("none"));
+    visit(base::field("return-time", return_time,
+                      turns ? "of a motor without gains: it follows its `angle` exactly as far as "
+                              "its limits admit, and an error that is left when it could not fades "
+                              "to 1/e in this time; five steps at least"
+                            : "of a motor without gains: it follows its `displacement` exactly as "
+                              "far as its limits admit, and an error that is left when it could "
+                              "not fades to 1/e in this time; five steps at least")
+              .in(base::kTime)
+              .positive()
+              .like("20 ms")
+              .otherwise("none: a position is held by `stiffness`"));
   }
 };
 

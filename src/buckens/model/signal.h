@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,9 +13,51 @@
 
 namespace buckens::model {
 
+/// A value of a sensor that follows from the motion at the same instant.
+struct MotionReading {
+  enum class Quantity {
+    position,
+    velocity,
+    angular_velocity,
+    relative_position,  ///< of the second marker in the axes of the first, as those below
+    distance,
+    relative_velocity,
+    relative_rotation,
+    relative_spin,
+    tension,          ///< along the line between both markers of a load
+    force_on_first,   ///< by a load, axes of its first marker
+    torque_on_first,  ///< the opposite of that on its second marker, axes of the first
+    force_on_second,  ///< by a load, axes of the world
+    torque_on_second,
+    normal,  ///< of an elastic contact, as those below
+    friction,
+    gap
+  };
+  Quantity quantity = Quantity::position;
+  MarkerId first, second;
+  std::optional<MarkerId> axes;                      ///< none: as the quantity says
+  Eigen::Vector3d along = Eigen::Vector3d::UnitX();  ///< of vectors: the component
+  int load = -1;                                     ///< index into Model::loads
+};
+
+/// Which value of a sensor a signal takes at the end of every step.
+struct HeldReading {
+  std::string sensor;
+  std::optional<std::string> component;
+};
+
 /// A named number that varies with the motion.
 struct Signal {
-  enum class Kind { formula, coordinate, coordinate_rate, position, velocity, force, block };
+  enum class Kind {
+    formula,
+    coordinate,
+    coordinate_rate,
+    position,
+    velocity,
+    force,
+    reading,
+    block
+  };
 
   std::string name;
   SourceLocation where;
@@ -24,7 +68,10 @@ struct Signal {
   MarkerId marker;
   Eigen::Vector3d along = Eigen::Vector3d::UnitX();  ///< world, unit length
   std::shared_ptr<const ControlBlock> block;
-  int first_state = 0;  ///< of the block among those of all
+  int first_state = 0;                   ///< of the block among those of all
+  double factor = 1;                     ///< of forces
+  std::optional<MotionReading> reading;  ///< of Kind::reading
+  std::optional<HeldReading> held;       ///< of a block whose state is that of a sensor
 
   bool is_sampled() const { return block && block->sample_time() > 0.0; }
 };
@@ -39,6 +86,10 @@ struct SignalSet {
   double rho = 1;             ///< spectral radius of their integration at infinite frequency
 
   bool empty() const { return all.empty(); }
+  /// Whether some are read from sensors at the ends of steps; samples are then taken after that.
+  bool has_held_readings() const {
+    return std::any_of(all.begin(), all.end(), [](const Signal& one) { return bool(one.held); });
+  }
 };
 
 }  // namespace buckens::model

@@ -9,6 +9,7 @@
 #include "buckens/dynamics/signals.h"
 #include "buckens/results/divided_body.h"
 #include "buckens/results/model_geometry.h"
+#include "buckens/results/sensor_component.h"
 
 namespace buckens::results {
 
@@ -177,8 +178,8 @@ void Recorder::append_joints_and_loads(const Observation& now, std::vector<doubl
   }
 }
 
-Record Recorder::record(const model::State& state, WorkBalance work,
-                        const std::optional<dynamics::Energy>& energy) {
+Observation Recorder::observe(const model::State& state, WorkBalance work,
+                              const std::optional<dynamics::Energy>& energy) {
   const model::Model& model = built_.model;
   Observation now{
       model,        state, dynamics::motions_of(model, state), {}, {}, {}, {}, {}, {}, work, {},
@@ -214,21 +215,45 @@ Record Recorder::record(const model::State& state, WorkBalance work,
   now.energy = energy ? *energy : dynamics::energy(model, state);
   if (!started_) first_energy_ = now.energy.total();
   now.work.balance = now.energy.total() - first_energy_ - now.work.external + now.work.dissipated;
+  return now;
+}
 
+void Recorder::start(const Observation& now) {
+  if (std::exchange(started_, true)) return;
+  for (const auto& sensor : sensors_) sensor->start(now);
+}
+
+std::vector<double> Recorder::read(const model::State& state, const WorkBalance& work,
+                                   const std::vector<SensorValue>& values) {
+  const Observation now = observe(state, work, {});
+  start(now);
+  std::vector<double> out, of_one;
+  for (const SensorValue& value : values) {
+    of_one.clear();
+    sensors_[value.sensor]->append(now, of_one);
+    out.push_back(of_one[value.place]);
+  }
+  return out;
+}
+
+std::size_t Recorder::find_component(std::size_t sensor, const model::Signal& signal) const {
+  return results::find_component(*sensors_[sensor], signal);
+}
+
+Record Recorder::record(const model::State& state, WorkBalance work,
+                        const std::optional<dynamics::Energy>& energy) {
+  const Observation now = observe(state, work, energy);
   Record record{state.t, {}};
   record.values.reserve(layout_.num_values());
   append_bodies(now, record.values);
   append_joints_and_loads(now, record.values);
   const dynamics::Energy& e = now.energy;
-  const double datum = dynamics::gravity_datum(model);
+  const double datum = dynamics::gravity_datum(built_.model);
   record.values.insert(record.values.end(),
                        {e.kinetic, e.strain, datum + e.gravity, e.springs, datum + e.total(),
                         now.work.external, now.work.dissipated, now.work.balance});
-  for (const auto& sensor : sensors_) {
-    if (!started_) sensor->start(now);
-    sensor->append(now, record.values);
-  }
-  started_ = true;
+  start(now);
+  for (const auto& sensor : sensors_) sensor->append(now, record.values);
   energy_ = e;
   balance_ = now.work.balance;
   return record;

@@ -34,6 +34,19 @@ class Recorder {
   Record record(const model::State& state, WorkBalance work,
                 const std::optional<dynamics::Energy>& energy = {});
 
+  /// One value of a sensor.
+  struct SensorValue {
+    std::size_t sensor = 0;  ///< index into description.output.sensors
+    std::size_t place = 0;   ///< among its values
+  };
+  /// Some values of sensors without the rest of a record. The first call sets the references of
+  /// sensors, as that of record() does.
+  std::vector<double> read(const model::State& state, const WorkBalance& work,
+                           const std::vector<SensorValue>& values);
+  /// Place of the value that a signal reads among those of a sensor.
+  /// @throws InputError as results::find_component()
+  std::size_t find_component(std::size_t sensor, const model::Signal& signal) const;
+
   /// Factor of applied loads in the records that follow; one at first.
   void set_load_factor(double factor) { load_factor_ = factor; }
 
@@ -48,6 +61,9 @@ class Recorder {
   void visit_saved(const base::SaveVisit& visit);
 
  private:
+  Observation observe(const model::State& state, WorkBalance work,
+                      const std::optional<dynamics::Energy>& energy);
+  void start(const Observation& now);
   void add_channels();
   void add_mesh_channels(const model::WholeBody& whole, const fem::FeModel& mesh);
   void append_bodies(const Observation& now, std::vector<double>& values) const;

@@ -27,13 +27,23 @@ bool crosses(model::Crossing direction, double before, double after) {
          (falls && direction != model::Crossing::rising);
 }
 
+/// Whether a signal is one read at the ends of steps, or a formula of such.
+bool hangs_on_reading(const std::vector<model::Signal>& all, std::size_t k) {
+  const model::Signal& signal = all[k];
+  if (signal.held) return true;
+  if (signal.kind != model::Signal::Kind::formula) return false;
+  return std::any_of(signal.input.places.begin(), signal.input.places.end(), [&](int other) {
+    return hangs_on_reading(all, static_cast<std::size_t>(other));
+  });
+}
+
 }  // namespace
 
 EventWatch::EventWatch(const model::BuiltModel& built) : built_(built) {
   const auto& all = built.model.signals.all;
   for (const model::EventSpec& spec : built.description.events) {
     for (std::size_t k = 0; k < all.size(); ++k) {
-      if (all[k].name == spec.when) events_.push_back({&spec, k + 1, {}});
+      if (all[k].name == spec.when) events_.push_back({&spec, k + 1, hangs_on_reading(all, k), {}});
     }
   }
 }
@@ -41,6 +51,10 @@ EventWatch::EventWatch(const model::BuiltModel& built) : built_(built) {
 double EventWatch::crossing(const Event& event, const model::State& before,
                             const model::State& after) const {
   const double first = before.memory.signals[event.signal];
+  if (event.is_held) {  // both readings are known, and nothing between them
+    const double last = after.memory.signals[event.signal];
+    return before.t + (after.t - before.t) * first / (first - last);
+  }
   double low = before.t;
   double high = after.t;
   dynamics::SignalValues at;

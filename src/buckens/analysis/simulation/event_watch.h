@@ -39,6 +39,7 @@ class EventWatch {
   struct Event {
     const model::EventSpec* spec = nullptr;
     std::size_t signal = 0;    // place in RowMemory::signals
+    bool is_held = false;      // it hangs on what is read at the ends of steps
     std::vector<long> recent;  // numbers of the steps in which it happened, the last of them
   };
   double crossing(const Event& event, const model::State& before, const model::State& after) const;

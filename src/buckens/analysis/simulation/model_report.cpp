@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "buckens/analysis/initial/prepare.h"
+#include "buckens/analysis/simulation/held_readings.h"
 #include "buckens/analysis/simulation/output_plan.h"
 #include "buckens/analysis/simulation/step_advice.h"
 #include "buckens/analysis/simulation/turn.h"
@@ -134,6 +135,19 @@ void add_damping(ModeDampingReport damping, ModelReport& out) {
   out.notes.insert(out.notes.end(), damping.notes.begin(), damping.notes.end());
 }
 
+/// @throws InputError where a signal reads a component that its sensor has not
+void report_size(const model::BuiltModel& built, const results::Recorder& recorder,
+                 const OutputPlan& plan, ModelReport& out) {
+  const HeldReadings readings(built, recorder);
+  const results::FieldRecorder fields(built);
+  results::Geometry geometry = recorder.geometry();
+  if (!fields.is_empty()) fields.add_places(geometry);
+  out.result_bytes =
+      plan.bytes(recorder.layout(), fields.layout()) + results::stored_bytes(geometry);
+  const std::string advice = judge_size(out.result_bytes);
+  if (!advice.empty()) out.warnings.push_back(advice);
+}
+
 }  // namespace
 
 ModelReport report_model(const model::BuiltModel& built) {
@@ -172,14 +186,8 @@ ModelReport report_model(const model::BuiltModel& built) {
   for (const std::string& text : prepared.warnings) out.warnings.push_back(text);
 
   if (built.description.simulation) {
-    const results::Recorder recorder(built, metric, !prepared.redundant_rows.empty());
-    const results::FieldRecorder fields(built);
-    results::Geometry geometry = recorder.geometry();
-    if (!fields.is_empty()) fields.add_places(geometry);
-    out.result_bytes =
-        plan.bytes(recorder.layout(), fields.layout()) + results::stored_bytes(geometry);
-    const std::string advice = judge_size(out.result_bytes);
-    if (!advice.empty()) out.warnings.push_back(advice);
+    report_size(built, results::Recorder(built, metric, !prepared.redundant_rows.empty()), plan,
+                out);
   }
 
   dynamics::Constraints constraints;

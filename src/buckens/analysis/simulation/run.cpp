@@ -124,6 +124,8 @@ void SimulationRun::set_up() {
   begin_march(0.0);
   observer_.emplace(built_, *metric_, !prepared_->redundant_rows.empty());
   work_.emplace(built_.model, prepared_->state, march_->stepper().scheme().weight == 1.0);
+  readings_.emplace(built_, *observer_);
+  readings_->start(*observer_, work_->work(), prepared_->state);
   drives_.emplace(built_.description);
   shafts_.emplace(built_.model);
   events_.emplace(built_);
@@ -233,6 +235,7 @@ void SimulationRun::step() {
   } else {
     work_->add(state);
   }
+  readings_->follow(*observer_, work_->work(), before_, state);
   const std::vector<EventWatch::Found> found = events_->after_step(before_, state);
   note_events(found);
   if (recording_) recording_->after_step(before_, state, is_done());
@@ -320,7 +323,7 @@ stepping::StepReport SimulationRun::take_step(const model::State& before, model:
   try {
     const stepping::StepReport report =
         march_->advance(before, after, [this](const model::State& from, const model::State& to) {
-          return events_->holds_action(from, to);
+          return holds_action(from, to);
         });
     drives_->check(before.t, after.t);
     shafts_->check(before, after);
@@ -335,6 +338,16 @@ stepping::StepReport SimulationRun::take_step(const model::State& before, model:
     shafts_->check_failed(before);
     throw;
   }
+}
+
+/// Whether a step that is tried contains an event for which it is to be shorter.
+bool SimulationRun::holds_action(const model::State& from, const model::State& to) {
+  if (readings_->empty() || built_.description.events.empty()) {
+    return events_->holds_action(from, to);
+  }
+  model::State seen = to;
+  readings_->follow(*observer_, work_->work(), from, seen);
+  return events_->holds_action(from, seen);
 }
 
 /// Accelerations that have jumped are found anew, and what foretells the motion begins here.

@@ -12,6 +12,7 @@
 #include "buckens/analysis/simulation/drive_laws.h"
 #include "buckens/analysis/simulation/event_actions.h"
 #include "buckens/analysis/simulation/event_watch.h"
+#include "buckens/analysis/simulation/held_readings.h"
 #include "buckens/analysis/simulation/nodal_views.h"
 #include "buckens/analysis/simulation/output_plan.h"
 #include "buckens/analysis/simulation/run_recording.h"
@@ -80,6 +81,7 @@ class SimulationRun {
   void begin_records();
   void take_steps();
   stepping::StepReport take_step(const model::State& before, model::State& after);
+  bool holds_action(const model::State& from, const model::State& to);
   void settle(model::State& state, double rest);
   bool report_progress();
   void split_wall_time();
@@ -106,6 +108,7 @@ class SimulationRun {
   std::optional<RunStatistics> statistics_;
   std::optional<CouplingWatch> watch_;
   std::optional<results::Recorder> observer_;
+  std::optional<HeldReadings> readings_;
   std::optional<RunRecording> recording_;
   std::optional<base::SavedValues> restored_;  // kept until it has been recorded
   results::RunSummary summary_;

@@ -30,7 +30,7 @@ namespace {
 constexpr double kSlow = 300.0;
 constexpr int kMostShifts = 14;
 constexpr double kUnsymmetric = 1e-6;
-constexpr double kNoMotion = 1e-6;
+constexpr double kNoShareOfMotion = 1e-6;
 
 class SystemVibrations {
  public:
@@ -222,7 +222,7 @@ double SystemVibrations::largest_motion_of(const std::vector<BodyShape>& shape) 
       turned = std::max(turned, body.length_scale() * (w + theta).norm());
     }
   }
-  return displacement > kNoMotion * turned ? displacement : turned;
+  return displacement > kNoShareOfMotion * turned ? displacement : turned;
 }
 
 void SystemVibrations::add_vibration(const SystemPencil& pencil, double theta, const Vector& x) {

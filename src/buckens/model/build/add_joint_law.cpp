@@ -130,7 +130,13 @@ class JointLawBuilder {
   }
   static Element make(const loads::MotorSpec& kind, const Coordinate&) {
     if (kind.is_exact()) {
-      return std::make_shared<loads::CoordinateServo>(*kind.speed, kind.limit.value_or(HUGE_VAL));
+      loads::ServoData servo;
+      servo.position = kind.position;
+      servo.speed = kind.speed;
+      servo.return_time = kind.return_time.value_or(0.0);
+      servo.limit = kind.limit.value_or(HUGE_VAL);
+      servo.power = kind.power.value_or(HUGE_VAL);
+      return std::make_shared<loads::CoordinateServo>(std::move(servo));
     }
     loads::MotorData data;
     data.force = kind.force;

@@ -104,6 +104,11 @@ class SignalBuilder {
     marker(spec_.position, Signal::Kind::position);
     marker(spec_.velocity, Signal::Kind::velocity);
     if (spec_.force_of) out_.kind = Signal::Kind::force;
+    if (spec_.sensor) {
+      out_.kind = Signal::Kind::block;
+      out_.held = {spec_.sensor->of, spec_.sensor->component};
+      out_.block = make_setting(spec_.sensor->start);
+    }
     block(spec_.integral);
     block(spec_.lag);
     block(spec_.transfer_function);
@@ -234,7 +239,7 @@ void connect_signals(const ModelDescription& description, Model& model) {
       signal.first_state = signals.num_states;
       signals.num_states += signal.block->num_states();
     }
-    if (signal.kind != Signal::Kind::force) continue;
+    if (signal.kind != Signal::Kind::force || signal.load >= 0) continue;
     const std::string& name = *description.signals[k].force_of;
     const auto load = std::find_if(model.loads.begin(), model.loads.end(), [&](const Load& one) {
       return one.name == name && one.coordinate >= 0;

@@ -28,6 +28,7 @@
 #include "buckens/model/build/massless_rotations.h"
 #include "buckens/model/build/mesh_division.h"
 #include "buckens/model/build/mesh_mechanism.h"
+#include "buckens/model/build/read_within_steps.h"
 #include "buckens/model/build/reduce_bodies.h"
 #include "buckens/model/check/check_description.h"
 #include "buckens/model/check/flat_mesh.h"
@@ -97,6 +98,7 @@ class Builder {
     }
     require_common_carriers(model_);
     require_bent_shafts(find);
+    read_within_steps(*out_);
     connect_signals(d, model_);
     settle_drives(d, model_);
     number_states();
@@ -431,7 +433,12 @@ class Builder {
       for (ContactMember& member : moved->members) move(member.marker);
       group = std::move(moved);
     }
-    for (Signal& signal : model_.signals.all) move(signal.marker);
+    for (Signal& signal : model_.signals.all) {
+      move(signal.marker);
+      if (!signal.reading) continue;
+      move(signal.reading->first);
+      move(signal.reading->second);
+    }
     for (SensorPlace& place : out_->sensors) {
       for (MarkerId& id : place.markers) move(id);
     }

@@ -135,15 +135,17 @@ Found friction_problem(const loads::HingeFrictionSpec& spec) {
                                      : "a `preload` in place of `static`")};
 }
 
-/// A motor that has its speed exactly has a limit, and nothing beside it.
+/// A motor that has its speed or position exactly has limits, and no force beside them.
 Found exact_motor_problem(const loads::MotorSpec& spec, bool turns) {
-  const char* speed = turns ? "speed" : "velocity";
+  const char* speed =
+      spec.return_time ? (turns ? "angle" : "displacement") : (turns ? "speed" : "velocity");
   const char* limit = turns ? "torque-limit" : "force-limit";
   if (!spec.limit) {
     return Finding{
-        speed, fmt::format("without `damping`, the gain on its error, the {} is held exactly, up "
+        speed, fmt::format("without `{}`, the gain on its error, the {} is held exactly, up "
                            "to a `{}`, which is missing; give one of them, or use `prescribed-{}`",
-                           speed, limit, turns ? "rotation" : "translation")};
+                           spec.return_time ? "stiffness" : "damping", speed, limit,
+                           turns ? "rotation" : "translation")};
   }
   if (spec.force) {
     return Finding{turns ? "torque" : "force",
@@ -151,25 +153,33 @@ Found exact_motor_problem(const loads::MotorSpec& spec, bool turns) {
                                "remove it, or give a `damping`",
                                speed)};
   }
-  if (spec.power) {
-    return Finding{"power-limit",
-                   fmt::format("a motor that holds its {} exactly has a `{}` only; remove it, or "
-                               "give a `damping`",
-                               speed, limit)};
-  }
   return std::nullopt;
+}
+
+/// A position is held exactly on the way back to it, or by gains.
+Found return_problem(const loads::MotorSpec& spec, const char* position) {
+  if (!spec.position) {
+    return Finding{
+        "return-time",
+        fmt::format("there is no `{0}` to come back to; give this `{0}`, or remove it", position)};
+  }
+  if (spec.stiffness == 0.0 && spec.damping == 0.0) return std::nullopt;
+  return Finding{"return-time",
+                 "it belongs to a motor without gains; remove it, or `stiffness` and `damping`"};
 }
 
 /// A gain aims at something, and a motor does something.
 Found motor_problem(const loads::MotorSpec& spec, bool turns) {
   const char* position = turns ? "angle" : "displacement";
   const char* speed = turns ? "speed" : "velocity";
-  if (spec.position && spec.stiffness == 0.0) {
+  if (spec.return_time) {
+    if (Found found = return_problem(spec, position)) return found;
+  } else if (spec.position && spec.stiffness == 0.0) {
     return Finding{
         position,
-        fmt::format(
-            "an {0} has no effect without `stiffness`, the gain on its error; give this gain",
-            position)};
+        fmt::format("a target `{0}` has no effect without `stiffness`, the gain on its error; give "
+                    "this gain, or a `return-time` to follow it exactly within a `{1}`",
+                    position, turns ? "torque-limit" : "force-limit")};
   }
   if (spec.stiffness > 0.0 && !spec.position) {
     return Finding{

@@ -18,11 +18,11 @@ int num_given(const SignalSpec& s) {
          int{s.joint_speed.has_value()} + int{s.joint_displacement.has_value()} +
          int{s.joint_velocity.has_value()} + int{s.joint_second_angle.has_value()} +
          int{s.joint_second_speed.has_value()} + int{s.position.has_value()} +
-         int{s.velocity.has_value()} + int{s.force_of.has_value()} + int{s.integral.has_value()} +
-         int{s.lag.has_value()} + int{s.transfer_function.has_value()} +
-         int{s.state_space.has_value()} + int{s.pid.has_value()} + int{s.sample_hold.has_value()} +
-         int{s.table.has_value()} + int{s.rate_limit.has_value()} + int{s.switched.has_value()} +
-         int{s.setting.has_value()};
+         int{s.velocity.has_value()} + int{s.force_of.has_value()} + int{s.sensor.has_value()} +
+         int{s.integral.has_value()} + int{s.lag.has_value()} +
+         int{s.transfer_function.has_value()} + int{s.state_space.has_value()} +
+         int{s.pid.has_value()} + int{s.sample_hold.has_value()} + int{s.table.has_value()} +
+         int{s.rate_limit.has_value()} + int{s.switched.has_value()} + int{s.setting.has_value()};
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ Found problem(const SignalSpec& spec, const ModelDescription& model) {
     return Finding{"",
                    "exactly one of the keys value, joint-angle, joint-speed, "
                    "joint-second-angle, joint-second-speed, "
-                   "joint-displacement, joint-velocity, position, velocity, force-of, "
+                   "joint-displacement, joint-velocity, position, velocity, force-of, sensor, "
                    "integral, lag, transfer-function, state-space, pid, sample-hold, "
                    "table, rate-limit, switch and setting is needed"};
   }

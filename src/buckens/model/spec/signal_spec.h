@@ -249,6 +249,28 @@ struct SettingSpec {
   }
 };
 
+/// One value of a sensor of `output`.
+struct SensorSignalSpec {
+  SourceLocation where;
+  std::string of;
+  std::optional<std::string> component;
+  double start = 0;
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("of", of, "name of the sensor").required().shorthand().like("strut-force"));
+    visit(base::field("component", component,
+                      "which of its values: what follows the sensor's name in the heading of its "
+                      "column of sensors.csv")
+              .like("y")
+              .otherwise("the only one"));
+    visit(base::field("start", start,
+                      "value before the first reading, of sensors that are read at the ends of "
+                      "steps; all statics use it")
+              .of_any_dimension()
+              .like("0"));
+  }
+};
+
 /// A named number that varies with the motion: exactly one of the members is given.
 struct SignalSpec {
   // In signal_spec.cpp, because they reach through all members: two to five seconds of compiling
@@ -267,6 +289,7 @@ struct SignalSpec {
   std::optional<std::string> joint_second_angle, joint_second_speed;
   std::optional<MarkerSignalSpec> position, velocity;
   std::optional<std::string> force_of;
+  std::optional<SensorSignalSpec> sensor;
   std::optional<IntegralSpec> integral;
   std::optional<LagSpec> lag;
   std::optional<TransferFunctionSpec> transfer_function;
@@ -326,6 +349,14 @@ struct SignalSpec {
                       "force or torque of this load along the coordinate of its joint, as it "
                       "drives it")
               .like("motor"));
+    visit(
+        base::field("sensor", sensor,
+                    "a value of a sensor. Within the step, without delay: `position`, `velocity`, "
+                    "`angular-velocity`, `relative` but for its `angle`, `joint-coordinate`, "
+                    "`spring-force`, `spring-torque`, `joint-force` and `joint-torque` of "
+                    "bushings, `contact` of an elastic one. Of all others, which hang on "
+                    "reactions, accelerations or what happened before, the value at the end of "
+                    "the last step, held over the next"));
   }
 };
 
