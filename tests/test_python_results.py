@@ -60,6 +60,7 @@ def test_results_are_arrays_with_units(run):
     with pytest.raises(buckens.InputError, match="no field .* ask for them in `output"):
         run.field("von_mises", body="rod")
     assert run.summary["title"] == run.title == "Flexible slider-crank"
+    assert run.energy_account["brought_in"] and run.energy_account == run.summary["energy_account"]
 
 
 def test_plots_have_names_and_units(run):

@@ -2,6 +2,7 @@
 #include "cli/summary_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -119,6 +120,27 @@ std::string limits_text(const results::BodyEffort& body) {
   return out;
 }
 
+/// Where the energy came from and went. Parts that rounding leaves are left out.
+std::string energy_table(const results::EnergyAccount& account) {
+  constexpr double kRounding = 1e-12;
+  double largest = 0;
+  for (const results::EnergyEntry& entry : account.entries) {
+    largest = std::max(largest, std::abs(entry.energy));
+  }
+  std::vector<std::vector<std::string>> rows = {{"energy", "", "of", "J"}};
+  using Side = results::EnergyEntry::Side;
+  for (const auto& [side, word] : {std::pair{Side::brought_in, "brought in"},
+                                   std::pair{Side::lost, "lost"}, std::pair{Side::kept, "kept"}}) {
+    for (const results::EnergyEntry& entry : account.entries) {
+      if (entry.side != side || std::abs(entry.energy) <= kRounding * largest) continue;
+      rows.push_back({word, entry.kind, entry.of, fmt::format("{:.6g}", entry.energy)});
+    }
+  }
+  if (rows.size() == 1) return "";
+  rows.push_back({"unexplained", "", "", fmt::format("{:.2g}", account.unexplained)});
+  return text_table(rows);
+}
+
 }  // namespace
 
 std::string summary_text(const results::RunSummary& summary) {
@@ -148,6 +170,7 @@ std::string summary_text(const results::RunSummary& summary) {
     if (body.dof > 0) entries.emplace_back("body " + body.name, limits_text(body));
   }
   out += text_list(entries);
+  if (summary.energy_account) out += energy_table(*summary.energy_account);
   if (summary.errors) out += error_text(*summary.errors);
   for (const std::string& text : summary.redundant_constraints) out += "redundant: " + text + '\n';
   for (const std::string& text : summary.notes) out += "note: " + text + '\n';

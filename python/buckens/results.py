@@ -67,6 +67,12 @@ class Results:
             raise IoError(f"{self.directory / 'summary.json'}: cannot be read: {error}") from None
 
     @property
+    def energy_account(self) -> Dict[str, Any]:
+        """Where the energy came from and went [J]: ``brought_in``, ``lost`` and ``kept``, each by kind and name
+        (``["lost"]["joint-friction"]["pin"]``), and what is ``unexplained``. Empty of runs that keep none."""
+        return dict(self.summary.get("energy_account", {}))
+
+    @property
     def status(self) -> str:
         """"starting", "running", "finished" or "interrupted"."""
         return str(self.summary["status"])

@@ -77,10 +77,18 @@ const kGroups: Record<string, string> = {
   newton_iterations: 'Small Newton iterations',
   residuals: 'Largest violations of the joints',
   measures: 'Measures',
+  energy_account: 'Energy account [J]',
   static_path: 'Static path',
   analyses: 'Vibrations',
   'analyses.modes': 'Mode',
   'analyses.modes.energy_shares': 'Mode',
+};
+
+/** Sides of the energy account. */
+const kEnergySides: Record<string, string> = {
+  brought_in: 'Energy brought in [J]',
+  lost: 'Energy lost [J]',
+  kept: 'Energy kept [J]',
 };
 
 /** Entries shown elsewhere on the page. */
@@ -108,6 +116,10 @@ function words(path: string[]): string {
   const key = path.at(-1) ?? '';
   // Names of bodies are kept as the user wrote them.
   if (path.at(-2) === 'energy_shares') return `Share of the energy: ${key}`;
+  if (path[0] === 'energy_account' && path.length === 4) {
+    const kind = spelt(path[2]!.replaceAll('-', ' '));
+    return key === 'model' ? kind : `${kind}: ${key}`;
+  }
   return kWords[key] ?? spelt(key);
 }
 
@@ -115,6 +127,7 @@ function groupOf(path: string[]): string {
   const numbers = path.filter((key) => /^\d+$/.test(key)).map((key) => Number(key) + 1);
   const way = path.filter((key) => !/^\d+$/.test(key));
   if (way[0] === 'bodies' && way.length > 1) return `Body ${path[1]!}`;
+  if (way[0] === 'energy_account' && way.length > 1) return kEnergySides[way[1]!] ?? spelt(way[1]!);
   const title = kGroups[way.join('.')] ?? spelt(way.at(-1) ?? '');
   const number = numbers.join('.');
   return number ? `${title} ${number}` : title;

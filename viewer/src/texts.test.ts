@@ -93,6 +93,30 @@ describe('run summary', () => {
     ]);
   });
 
+  it('tell where the energy went', () => {
+    const groups = summaryGroups({
+      energy_account: {
+        brought_in: { drives: { motor: 5 } },
+        lost: { 'joint-friction': { pin: 2, '3': 1 }, impacts: { model: 0.25 } },
+        kept: { kinetic: { model: 1.5 } },
+        unexplained: 0.25,
+      },
+    });
+    expect(groups).toEqual([
+      { title: 'Energy brought in [J]', rows: [['Drives: motor', '5']] },
+      {
+        title: 'Energy lost [J]',
+        rows: [
+          ['Joint friction: 3', '1'],
+          ['Joint friction: pin', '2'],
+          ['Impacts', '0.25000'],
+        ],
+      },
+      { title: 'Energy kept [J]', rows: [['Kinetic', '1.5000']] },
+      { title: 'Energy account [J]', rows: [['Unexplained', '0.25000']] },
+    ]);
+  });
+
   it('bears a summary of nothing', () => {
     const run = decodeRun(kVariants['no-curves']());
     expect(summaryChips(run)).toEqual([]);

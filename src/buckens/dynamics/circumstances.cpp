@@ -82,12 +82,11 @@ Circumstances circumstances_of(const model::State& state) {
   return {&state.inputs, &state.memory, &state.lambda, nullptr};
 }
 
-joints::CountedValue counted_coordinate(const model::Model& model, std::size_t coordinate,
-                                        const model::RowMemory* memory,
-                                        const spatial::MarkerMotion& first,
-                                        const spatial::MarkerMotion& second) {
+namespace {
+
+joints::CountedValue counted(const model::Model& model, std::size_t coordinate,
+                             const model::RowMemory* memory, double fraction) {
   const joints::JointCoordinate& law = model.coordinates[coordinate].law;
-  const double fraction = law.fraction(first, second);
   if (memory != nullptr && !memory->coordinates.empty()) {
     return law.follow(memory->coordinates[coordinate], fraction);
   }
@@ -99,6 +98,16 @@ joints::CountedValue counted_coordinate(const model::Model& model, std::size_t c
         model.joints[joint].name, fraction, kLargestUncounted));
   }
   return {0, fraction};
+}
+
+}  // namespace
+
+joints::CountedValue counted_coordinate(const model::Model& model, std::size_t coordinate,
+                                        const model::RowMemory* memory,
+                                        const spatial::MarkerMotion& first,
+                                        const spatial::MarkerMotion& second) {
+  return counted(model, coordinate, memory,
+                 model.coordinates[coordinate].law.fraction(first, second));
 }
 
 JointWrenches wrenches_of(const model::Model& model, const model::Joint& joint, double t,
@@ -131,12 +140,11 @@ loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t
                                           const model::RowMemory* memory,
                                           const spatial::MarkerMotion& first,
                                           const spatial::MarkerMotion& second) {
-  const joints::JointCoordinate& law = model.coordinates[coordinate].law;
+  const joints::CoordinateLook look = model.coordinates[coordinate].law.look(first, second);
+  const joints::CountedValue now = counted(model, coordinate, memory, look.fraction);
   loads::CoordinateMotion out;
-  out.J = law.derivatives(first, second);
-  out.rate = out.J.segment<3>(0).dot(first.w) + out.J.segment<3>(3).dot(first.v) +
-             out.J.segment<3>(6).dot(second.w) + out.J.segment<3>(9).dot(second.v);
-  const joints::CountedValue now = counted_coordinate(model, coordinate, memory, first, second);
+  out.J = look.J;
+  out.rate = look.rate;
   out.value = now.value();
   if (memory == nullptr || memory->coordinates.empty()) return out;
   const joints::CountedValue& before = memory->coordinates[coordinate];

@@ -163,6 +163,7 @@ void add_group_forces(const model::Model& model, const std::vector<BodyMotion>& 
     out.stored_energy += action.stored_energy;
     out.active_power += action.active_power;
     out.dissipation += action.dissipation;
+    if (!out.of_loads.empty()) out.of_loads[at.group.load].add(action);
     out.regimes.push_back(action.regime);
   });
 }

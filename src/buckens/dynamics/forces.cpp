@@ -5,6 +5,7 @@
 
 #include "buckens/dynamics/citing.h"
 #include "buckens/dynamics/contact_groups.h"
+#include "buckens/dynamics/joint_set.h"
 #include "buckens/dynamics/travel.h"
 
 namespace buckens::dynamics {
@@ -80,12 +81,14 @@ void add_slopes_of_signals(const model::Load& load, const std::vector<BodyMotion
   row.damping = std::max(0.0, row.damping + slope({load.coordinate, 0.0, kShift}));
 }
 
-/// The share of a load along one row, with its power.
-void add_pattern(const model::Load& load, const std::vector<BodyMotion>& motions,
-                 const loads::Action& action, Forces& out) {
+/// The share of a load along one row. @return its power [W]
+double add_pattern(const model::Load& load, const std::vector<BodyMotion>& motions,
+                   const loads::Action& action, Forces& out) {
   const auto b = static_cast<std::size_t>(load.first.body);
+  const double power = action.along_pattern * motions[b].y_dot[load.pattern_row];
   out.interface[b][load.pattern_row] += action.along_pattern;
-  out.active_power += action.along_pattern * motions[b].y_dot[load.pattern_row];
+  out.active_power += power;
+  return power;
 }
 
 /// What a cable does to its third marker and those behind it.
@@ -114,6 +117,7 @@ void Forces::reset(const model::Model& model) {
   dissipation = 0;
   regimes.clear();
   rigid.clear();
+  std::fill(of_loads.begin(), of_loads.end(), LoadPower());
 }
 
 void Forces::leave_place(const model::Load& load) {
@@ -154,10 +158,15 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
       add_wrench(model, load.second, ends.second, action.on_second, out);
       if (!load.others.empty()) add_others(model, k, t, around, ends, out);
     }
-    if (load.pattern_row >= 0) add_pattern(load, motions, action, out);
+    const double along_pattern =
+        load.pattern_row >= 0 ? add_pattern(load, motions, action, out) : 0.0;
     out.stored_energy += action.stored_energy;
     out.active_power += action.active_power;
     out.dissipation += action.dissipation;
+    if (!out.of_loads.empty()) {
+      out.of_loads[k].add(action);
+      out.of_loads[k].supplied += along_pattern;
+    }
     if (has_regimes(load)) out.regimes.push_back(action.regime);
     if (load.rigid_row >= 0) out.rigid.push_back(action.row);
   }
@@ -173,14 +182,6 @@ void add_joint_forces(const Constraints& constraints, const linalg::Vector& lamb
 }
 
 namespace {
-
-/// Rows of what is switched off stay in their places, since the number of rows is constant.
-void give_nothing(std::vector<loads::SoftRow>& rows) {
-  for (loads::SoftRow& row : rows) {
-    row.stiffness = row.damping = 0.0;
-    row.is_rigid = false;
-  }
-}
 
 SystemRow tangent_row(const model::Model& model, const model::Load& load, const LoadEnds& ends,
                       const spatial::PairRow& J) {
@@ -227,6 +228,13 @@ void add_parts(const model::Model& model, const model::Load& load, const LoadEnd
 
 }  // namespace
 
+void give_nothing(std::vector<loads::SoftRow>& rows) {
+  for (loads::SoftRow& row : rows) {
+    row.stiffness = row.damping = 0.0;
+    row.is_rigid = false;
+  }
+}
+
 void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions,
                         SoftRows& out) {
   evaluate_soft_rows(model, motions, 0.0, Circumstances(), out);
@@ -234,7 +242,7 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
 
 void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                         const Circumstances& given, SoftRows& out, const ReactionSlopes* followers,
-                        std::vector<ReactionSlope>* slopes) {
+                        std::vector<ReactionSlope>* slopes, const JointSet* at_joints) {
   const Circumstances around = with_signals(model, motions, t, given, out.signals);
   out.regimes.clear();
   clear_rows(out.rows);
@@ -247,16 +255,22 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const model::Load& load = model.loads[k];
     if (load.element->num_soft_rows() == 0) continue;
+    if (at_joints != nullptr && at_joints->laws()[k] != 0) {
+      at_joints->append_soft_rows(k, motions, t, around, out, slopes);
+      continue;
+    }
     const LoadEnds ends = ends_of(model, load, motions, around.memory);
     rows.clear();
     const loads::Sight sight = sight_of(model, k, t, around, ends);
     const bool is_off = around.memory != nullptr && around.memory->is_off(k);
     citing(load, [&] {
+      if (has_regimes(load) && !is_off) {
+        out.regimes.push_back(load.element->append_tangent_in_regime(sight, rows));
+        return;
+      }
       load.element->append_tangent(sight, rows);
       if (is_off) give_nothing(rows);
-      if (has_regimes(load)) {
-        out.regimes.push_back(is_off ? 0 : load.element->respond(sight).regime);
-      }
+      if (has_regimes(load)) out.regimes.push_back(0);
     });
     if (followers != nullptr && !is_off) {
       followers->append(k, static_cast<int>(out.rows.size()), sight, around, ends.travels(),

@@ -10,6 +10,21 @@
 
 namespace buckens::dynamics {
 
+/// What one load does to the energy of the model at one instant.
+struct LoadPower {
+  double stored = 0;    ///< in its springs [J]
+  double supplied = 0;  ///< from outside [W]
+  double lost = 0;      ///< dissipated, without `rubbed` [W]
+  double rubbed = 0;    ///< by dry friction of contacts [W]
+
+  void add(const loads::Action& action) {
+    stored += action.stored_energy;
+    supplied += action.active_power + action.dissipation;
+    lost += action.dissipation - action.friction;
+    rubbed += action.friction;
+  }
+};
+
 /// Generalised forces on all bodies at one instant.
 struct Forces {
   /// Per body: torque about the origin in body axes [N m], force in world axes [N].
@@ -23,10 +38,14 @@ struct Forces {
   std::vector<loads::RigidRow> rigid;  ///< one per Load::rigid_row
   SignalValues signals;                ///< at the instant
   std::vector<spatial::Wrench> on_others;  ///< scratch
+  /// Of each load, where account() has asked for them; otherwise empty.
+  std::vector<LoadPower> of_loads;
 
   void reset(const model::Model& model);
   /// Keeps the place of a load that is evaluated elsewhere.
   void leave_place(const model::Load& load);
+  /// Asks for the powers of single loads. Those of laws that a JointSet evaluates are left out.
+  void account(const model::Model& model) { of_loads.resize(model.loads.size()); }
 };
 
 /// Whether a load has more than one tangent, and so a place in Forces::regimes.
@@ -53,6 +72,8 @@ void add_wrench(const model::Model& model, const model::MarkerId& id,
 /// Adds Gᵀλ.
 void add_joint_forces(const Constraints& constraints, const linalg::Vector& lambda, Forces& out);
 
+class JointSet;
+
 /// Tangents of all force elements, in the order of Model::loads.
 struct SoftRows {
   std::vector<SystemRow> rows;
@@ -67,10 +88,14 @@ struct SoftRows {
 };
 /// @param followers null, or forces that grow with reactions: `slopes` says how, in the order of
 /// the rows
+/// @param at_joints null, or evaluates the laws that it has with their joints
 void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                         const Circumstances& around, SoftRows& out,
                         const ReactionSlopes* followers = nullptr,
-                        std::vector<ReactionSlope>* slopes = nullptr);
+                        std::vector<ReactionSlope>* slopes = nullptr,
+                        const JointSet* at_joints = nullptr);
+/// Rows of what is switched off stay in their places, since the number of rows is constant.
+void give_nothing(std::vector<loads::SoftRow>& rows);
 /// The same without circumstances, at t = 0.
 void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions,
                         SoftRows& out);

@@ -42,17 +42,6 @@ inline Vector3d three(const Eigen::VectorXd& y, int row) { return y.segment<3>(r
 
 }  // namespace
 
-/// Motion of one end, world axes unless said otherwise. `axes` turn what was given in body axes
-/// along with the marker's place in the mesh.
-struct JointSet::Motion {
-  Matrix3d R_WB, axes;
-  Matrix3d rotation_map;  // of ends that follow rotations of a mesh
-  Vector3d z;             // in the deformed body, body axes
-  Vector3d p, w, v;
-
-  spatial::MarkerMotion marker(const End& end) const { return {p, axes * end.R, w, v}; }
-};
-
 JointSet::JointSet(const model::Model& model)
     : model_(model), num_rows_(model.num_constraint_rows()) {
   const auto end_of = [&](const model::MarkerId& id) {

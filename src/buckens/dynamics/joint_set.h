@@ -55,6 +55,12 @@ class JointSet {
   /// Of each load of the model, whether it is a law that is evaluated with its joint.
   const std::vector<char>& laws() const { return is_law_; }
 
+  /// Appends the soft rows of one of laws(), as evaluate_soft_rows() does.
+  /// @param slopes null, or how their forces grow with multipliers
+  void append_soft_rows(std::size_t load, const std::vector<BodyMotion>& motions, double t,
+                        const Circumstances& around, SoftRows& out,
+                        std::vector<ReactionSlope>* slopes) const;
+
   /// Whether a soft row is that of one of these laws.
   bool has_soft_row(int soft) const { return is_soft_row_[static_cast<std::size_t>(soft)] != 0; }
 
@@ -98,7 +104,16 @@ class JointSet {
     std::size_t laws, num_laws;        // in laws_
     const model::Joint* slider;        // on a beam, null: another
   };
-  struct Motion;
+  /// Motion of one end, world axes unless said otherwise. `axes` turn what was given in body axes
+  /// along with the marker's place in the mesh.
+  struct Motion {
+    Eigen::Matrix3d R_WB, axes;
+    Eigen::Matrix3d rotation_map;  // of ends that follow rotations of a mesh
+    Eigen::Vector3d z;             // in the deformed body, body axes
+    Eigen::Vector3d p, w, v;
+
+    spatial::MarkerMotion marker(const End& end) const { return {p, axes * end.R, w, v}; }
+  };
 
   static Motion motion_of(const End& end, const std::vector<BodyMotion>& motions);
   static void add_wrench(const End& end, const Motion& motion, const spatial::Wrench& wrench,
@@ -115,6 +130,9 @@ class JointSet {
   struct Markers {
     spatial::MarkerMotion first, second;
   };
+  struct LawView;
+  LawView view(std::size_t load, const std::vector<BodyMotion>& motions, double t,
+               const Circumstances& around, spatial::Wrench* units) const;
   /// Adds what the laws of a joint do.
   void act(const Joint& joint, const Markers& markers, double t, const Laws& with,
            const spatial::Wrench* units, JointWrenches& wrenches, Forces& forces) const;
@@ -137,6 +155,7 @@ class JointSet {
   std::vector<Row> rows_;
   std::vector<Coupled> coupled_;
   std::vector<Law> laws_;
+  std::vector<std::size_t> law_of_load_;  // in laws_, of laws()
   std::vector<char> is_law_, is_soft_row_;
   int num_rows_ = 0;
 };

@@ -38,7 +38,77 @@ void JointSet::take_laws() {
     joints_[found[n].first].laws = n;
     ++joints_[found[n].first].num_laws;
   }
-  for (const auto& [joint, law] : found) laws_.push_back(law);
+  law_of_load_.assign(model_.loads.size(), 0);
+  for (const auto& [joint, law] : found) {
+    law_of_load_[law.load] = laws_.size();
+    laws_.push_back(law);
+  }
+}
+
+/// A law, its joint, and what the law sees apart from the rest of the mechanism.
+struct JointSet::LawView {
+  const Law& law;
+  const Joint& joint;
+  Motion F, M;
+  Markers markers;
+  Wrench reaction;
+  bool is_released;
+};
+
+/// @param units as of evaluate_rows()
+JointSet::LawView JointSet::view(std::size_t load, const std::vector<BodyMotion>& motions, double t,
+                                 const Circumstances& around, Wrench* units) const {
+  const auto j = static_cast<std::size_t>(model_.loads[load].joint);
+  const Joint& joint = joints_[j];
+  LawView out{laws_[law_of_load_[load]],
+              joint,
+              motion_of(joint.first, motions),
+              motion_of(joint.second, motions),
+              {},
+              {},
+              around.memory != nullptr && around.memory->is_released(j)};
+  out.markers = {out.F.marker(joint.first), out.M.marker(joint.second)};
+  const bool has_reaction = around.lambda != nullptr && around.lambda->size() > 0;
+  if (out.is_released || (!has_reaction && units == nullptr)) return out;
+  thread_local JointResiduals unused;  // kept, so that steps allocate nothing
+  for (linalg::Vector* values : {&unused.g, &unused.g_dot, &unused.g_t}) values->resize(num_rows_);
+  const double* const states = around.memory != nullptr && around.memory->rows.size() > 0
+                                   ? around.memory->rows.data()
+                                   : nullptr;
+  out.reaction = evaluate_rows(j, out.F, out.M, t, states, has_reaction ? around.lambda : nullptr,
+                               unused, units)
+                     .on_second;
+  return out;
+}
+
+void JointSet::append_soft_rows(std::size_t load, const std::vector<BodyMotion>& motions, double t,
+                                const Circumstances& around, SoftRows& out,
+                                std::vector<ReactionSlope>* slopes) const {
+  const model::Load& own = model_.loads[load];
+  std::array<Wrench, kMostRows> units;
+  const LawView seen = view(load, motions, t, around, slopes != nullptr ? units.data() : nullptr);
+  const loads::Sight sight = sight_at_joint(model_, load, t, around, seen.markers.first,
+                                            seen.markers.second, seen.reaction);
+  const bool is_off = around.memory != nullptr && around.memory->is_off(load);
+  out.of_one.clear();
+  const int regime =
+      citing(own, [&] { return own.element->append_tangent_in_regime(sight, out.of_one); });
+  if (is_off) give_nothing(out.of_one);
+  if (seen.law.regime >= 0) out.regimes.push_back(is_off ? 0 : regime);
+  if (slopes != nullptr && seen.law.follows != nullptr && !is_off && !seen.is_released) {
+    append_slopes(seen.joint, seen.law, sight, units.data(), *slopes);
+  }
+  for (const loads::SoftRow& row : out.of_one) {
+    SystemRow& place = out.rows.emplace_back();
+    derive(seen.joint.first, seen.F,
+           {row.J.segment<3>(0).transpose(), row.J.segment<3>(3).transpose()}, place.first);
+    derive(seen.joint.second, seen.M,
+           {row.J.segment<3>(6).transpose(), row.J.segment<3>(9).transpose()}, place.second);
+    out.stiffness.push_back(row.stiffness);
+    out.damping.push_back(row.damping);
+    out.rigid.push_back(own.rigid_row);
+    out.is_closed.push_back(row.is_rigid ? 1 : 0);
+  }
 }
 
 void JointSet::append_slopes(const Joint& joint, const Law& law, const loads::Sight& sight,

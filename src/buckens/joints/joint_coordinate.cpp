@@ -115,6 +115,36 @@ spatial::PairRow JointCoordinate::derivatives(const MarkerMotion& F, const Marke
   return J;
 }
 
+CoordinateLook JointCoordinate::look(const MarkerMotion& F, const MarkerMotion& M) const {
+  CoordinateLook out;
+  if (kind_ == Kind::length || kind_ == Kind::gap) {
+    out.fraction = fraction(F, M);
+    out.J = derivatives(F, M);
+    out.rate = out.J.segment<3>(0).dot(F.w) + out.J.segment<3>(3).dot(F.v) +
+               out.J.segment<3>(6).dot(M.w) + out.J.segment<3>(9).dot(M.v);
+    return out;
+  }
+  const Vector3d axis =
+      kind_ == Kind::second_angle ? axes_times(M.R, axis_M_) : axes_times(F.R, axis_F_);
+  if (is_angle()) {
+    const Vector3d x = axes_times(F.R, x_F_);
+    const Vector3d moved = axes_times(M.R, x_M_);
+    out.fraction = std::atan2(axis.cross(x).dot(moved), x.dot(moved));
+    out.rate = axis.dot(M.w) - axis.dot(F.w);
+    out.J.segment<3>(0) = -axis.transpose();
+    out.J.segment<3>(6) = axis.transpose();
+    return out;
+  }
+  const Vector3d r = M.p - F.p;
+  const Vector3d lever = axis.cross(r);
+  out.fraction = axis.dot(r) - offset_;
+  out.rate = lever.dot(F.w) - axis.dot(F.v) + axis.dot(M.v);
+  out.J.segment<3>(0) = lever.transpose();
+  out.J.segment<3>(3) = -axis.transpose();
+  out.J.segment<3>(9) = axis.transpose();
+  return out;
+}
+
 double JointCoordinate::bias(const MarkerMotion& F, const MarkerMotion& M,
                              const spatial::MarkerBias& bias_F,
                              const spatial::MarkerBias& bias_M) const {

@@ -18,6 +18,13 @@ struct CountedValue {
   double value() const;
 };
 
+/// A coordinate at one instant.
+struct CoordinateLook {
+  double fraction = 0;  ///< as JointCoordinate::fraction()
+  double rate = 0;      ///< J V
+  spatial::PairRow J = spatial::PairRow::Zero();
+};
+
 /// Angle or displacement of marker M relative to marker F about or along an axis fixed in F, both
 /// zero as placed; the length of the line between them; or the gap between M and a curve fixed in
 /// F. The axis is also fixed in M if a joint ensures that. The second angle, of a cross joint, is
@@ -57,6 +64,8 @@ class JointCoordinate {
   /// J: the rate of the coordinate is J V.
   spatial::PairRow derivatives(const spatial::MarkerMotion& F,
                                const spatial::MarkerMotion& M) const;
+  /// Both with the rate, for less than one after the other.
+  CoordinateLook look(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M) const;
   /// Part of the coordinate's acceleration that does not come from those of the bodies'
   /// coordinates.
   double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,

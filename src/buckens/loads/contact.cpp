@@ -152,6 +152,7 @@ Action Contact::respond(const Sight& sight) const {
   return with_points(sight, [&](std::span<const Point> points) {
     Action out;
     double power = 0;
+    double rubbing = 0;
     for (const Point& point : points) {
       if (!(point.gap < 0.0)) continue;
       const Vector3d force = point.across.force * point.normal + point.along.force;
@@ -159,14 +160,18 @@ Action Contact::respond(const Sight& sight) const {
       out.on_second += {(point.place - sight.second.p).cross(force) + couple, force};
       out.on_first += {-(point.place - sight.first.p).cross(force) - couple, -force};
       out.stored_energy += point.across.energy;
-      power += point.along.force.dot(point.slip);
+      const double along = point.along.force.dot(point.slip);
+      power += along;
+      rubbing += along;
       // Without what the elastic energy takes.
       power += (point.across.force - point.across.elastic) * point.gap_rate;
     }
     const double held = strain_energy(points);
     out.stored_energy += held;
-    out.active_power = power + strain_power(sight, held);
+    const double straining = strain_power(sight, held);
+    out.active_power = power + straining;
     out.dissipation = -out.active_power;
+    out.friction = -(rubbing + straining);
     out.regime = regime_of(sight, points);
     return out;
   });

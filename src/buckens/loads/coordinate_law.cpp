@@ -80,6 +80,10 @@ Action CoordinateLaw::respond(const Sight& sight) const {
 }
 
 void CoordinateLaw::append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const {
+  append_tangent_in_regime(sight, rows);
+}
+
+int CoordinateLaw::append_tangent_in_regime(const Sight& sight, std::vector<SoftRow>& rows) const {
   const ProjectedForce law = force(sight);
   const Projected f = project(law, sight.coordinate.rate);
   const bool is_elastic = law.is_on && !f.is_cut;
@@ -90,6 +94,7 @@ void CoordinateLaw::append_tangent(const Sight& sight, std::vector<SoftRow>& row
   row.damping = law.outer_damping + (is_elastic && !is_limited ? law.damping : 0.0) +
                 (f.is_cut ? law.cut_damping : 0.0);
   rows.push_back(row);
+  return regime_of(law, f);
 }
 
 UnlimitedForce CoordinateLaw::unlimited(const Sight& sight) const {

@@ -49,6 +49,7 @@ class CoordinateLaw : public ForceElement {
   Action respond(const Sight& sight) const final;
   int num_soft_rows() const final { return 1; }
   void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const final;
+  int append_tangent_in_regime(const Sight& sight, std::vector<SoftRow>& rows) const final;
   int num_states() const final { return is_yielding() ? 1 : 0; }
   void find_states(const Sight& sight, double* states) const final;
   UnlimitedForce unlimited(const Sight& sight) const;

@@ -35,6 +35,7 @@ struct Action {
   double stored_energy = 0;     ///< of its springs [J]
   double active_power = 0;      ///< power supplied to the system beyond −d(stored_energy)/dt [W]
   double dissipation = 0;       ///< power dissipated by dampers, negative part of active_power [W]
+  double friction = 0;          ///< part of the dissipation in contacts that rub [W]
   double along_coordinate = 0;  ///< force along its joint coordinate [N] or [N m]
   int regime = 0;  ///< which of its tangents applies; a change makes them be formed again
   RigidRow row{};  ///< of laws with a rigid row
@@ -102,6 +103,12 @@ class ForceElement {
                                 std::vector<SoftRow>& /*rows*/) const {}
   virtual void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const {
     append_soft_rows(sight.first, sight.second, rows);
+  }
+
+  /// Appends the same, and says which of its tangents that is: Action::regime.
+  virtual int append_tangent_in_regime(const Sight& sight, std::vector<SoftRow>& rows) const {
+    append_tangent(sight, rows);
+    return respond(sight).regime;
   }
 
   /// Adds what it does to its third marker and those behind it, one wrench for each.

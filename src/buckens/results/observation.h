@@ -16,6 +16,9 @@ struct WorkBalance {
   double external = 0;    ///< by loads and drives
   double dissipated = 0;  ///< by structural damping and dampers
   double balance = 0;     ///< E − E₀ − external + dissipated
+  /// Of the first two, and what force laws hold: in the order of EnergyParts; empty where nothing
+  /// keeps account of them.
+  linalg::Vector parts = {};
 };
 
 /// Everything from which sensors and channels are computed at one instant.

@@ -77,6 +77,25 @@ struct StaticPathSummary {
   std::vector<CriticalPoint> critical_points;
 };
 
+/// A part of the energy account of a run.
+struct EnergyEntry {
+  enum class Side {
+    brought_in,  ///< by loads, drives and events
+    lost,        ///< dissipated
+    kept         ///< by how much more the model holds now than at its start
+  };
+  Side side;
+  std::string kind;   ///< as sensors spell it: "joint-friction"
+  std::string of;     ///< load, joint or body; empty: the model
+  double energy = 0;  ///< [J]
+};
+
+/// Where the energy came from and went.
+struct EnergyAccount {
+  std::vector<EnergyEntry> entries;  ///< all that are not zero
+  double unexplained = 0;            ///< kept − brought in + lost, the error of steps [J]
+};
+
 /// What a run reports at its end; the contents of summary.json.
 struct RunSummary {
   std::string title;        ///< of the model
@@ -91,8 +110,9 @@ struct RunSummary {
   long setup_solves = 0;  ///< large solves before the first step
   NewtonEffort newton_iterations;
   Residuals residuals;
-  double energy_error = 0;         ///< (E−E₀−W+D)/scale, largest magnitude
-  std::vector<std::string> trust;  ///< reasons to doubt the results; empty: none
+  std::optional<EnergyAccount> energy_account;  ///< of simulations
+  double energy_error = 0;                      ///< (E−E₀−W+D)/scale, largest magnitude
+  std::vector<std::string> trust;               ///< reasons to doubt the results; empty: none
   std::vector<std::string> warnings;
   std::vector<std::string> notes;                  ///< other events, such as changes of level
   std::vector<std::string> redundant_constraints;  ///< rows found redundant, by joint

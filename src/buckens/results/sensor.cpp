@@ -20,6 +20,7 @@
 #include "buckens/results/coordinate_sensor.h"
 #include "buckens/results/deflection_sensor.h"
 #include "buckens/results/divided_body.h"
+#include "buckens/results/energy_sensor.h"
 #include "buckens/results/gear_sensor.h"
 #include "buckens/results/load_sensor.h"
 #include "buckens/results/model_geometry.h"
@@ -293,40 +294,6 @@ class StressSensor final : public Sensor {
   bool has_lines_;
 };
 
-class EnergySensor final : public Sensor {
- public:
-  EnergySensor(std::string name, model::EnergyKind kind) : name_(std::move(name)), kind_(kind) {}
-
-  std::vector<Channel> channels() const override {
-    return {{"sensors/" + name_, "J", {}, "energy of the whole model", {}}};
-  }
-  void append(const Observation& now, std::vector<double>& values) override {
-    using K = model::EnergyKind;
-    const dynamics::Energy& e = now.energy;
-    switch (kind_) {
-      case K::total:
-        return values.push_back(dynamics::gravity_datum(now.model) + e.total());
-      case K::kinetic:
-        return values.push_back(e.kinetic);
-      case K::potential:
-        return values.push_back(dynamics::gravity_datum(now.model) + e.strain + e.gravity +
-                                e.springs);
-      case K::strain:
-        return values.push_back(e.strain);
-      case K::work:
-        return values.push_back(now.work.external);
-      case K::dissipated:
-        return values.push_back(now.work.dissipated);
-      case K::balance:
-        return values.push_back(now.work.balance);
-    }
-  }
-
- private:
-  std::string name_;
-  model::EnergyKind kind_;
-};
-
 class Maker {
  public:
   Maker(const model::BuiltModel& built, std::size_t index)
@@ -430,7 +397,7 @@ class Maker {
     return make_spring_sensor(built_, spec_, s.spring, true);
   }
   std::unique_ptr<Sensor> operator()(const model::EnergySensor& s) const {
-    return std::make_unique<EnergySensor>(spec_.name, s.kind);
+    return make_energy_sensor(built_, spec_, s);
   }
 
  private:

@@ -70,6 +70,7 @@ EnergyLevels interpolate(const EnergyLevels& before, const EnergyLevels& after, 
   out.energy.springs = between(a.springs, b.springs);
   out.work.external = between(before.work.external, after.work.external);
   out.work.dissipated = between(before.work.dissipated, after.work.dissipated);
+  out.work.parts = (1.0 - share) * before.work.parts + share * after.work.parts;
   return out;
 }
 

@@ -66,6 +66,20 @@ Json static_path_json(const results::StaticPathSummary& path) {
   return {{"load_factor", path.load_factor}, {"critical_points", std::move(points)}};
 }
 
+/// By side, kind and name: {"lost": {"joint-friction": {"pin": 1.5}}}.
+Json energy_account_json(const results::EnergyAccount& account) {
+  Json sides = {{"brought_in", Json::object()}, {"lost", Json::object()}, {"kept", Json::object()}};
+  for (const results::EnergyEntry& entry : account.entries) {
+    using Side = results::EnergyEntry::Side;
+    Json& side = sides[entry.side == Side::brought_in ? "brought_in"
+                       : entry.side == Side::lost     ? "lost"
+                                                      : "kept"];
+    side[entry.kind][entry.of.empty() ? "model" : entry.of] = entry.energy;
+  }
+  sides["unexplained"] = account.unexplained;
+  return sides;
+}
+
 Json step_control_json(const results::StepControlEffort& control) {
   Json sizes = Json::array();
   for (const results::StepSizeEffort& size : control.sizes) {
@@ -159,6 +173,7 @@ std::string summary_json(const results::RunSummary& summary, const std::string& 
                        {"opening", summary.residuals.opening},
                        {"opening_rate", summary.residuals.opening_rate}};
   json["energy_error"] = summary.energy_error;
+  if (summary.energy_account) json["energy_account"] = energy_account_json(*summary.energy_account);
   json["trust"] = summary.trust.empty() ? Json("ok") : Json(summary.trust);
   json["warnings"] = summary.warnings;
   json["notes"] = summary.notes;

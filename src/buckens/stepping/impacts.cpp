@@ -166,6 +166,7 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
   touches_.clear();
   slips_.clear();
   landings_.clear();
+  shares_.clear();
   loss_ = 0;
   count_ = 0;
   bool is_struck = false;
@@ -401,7 +402,7 @@ void Impacts::land(const Vector& P, const Vector& jump) {
     const auto i = static_cast<Eigen::Index>(k);
     if (touch.approach > 0.0) {
       ++count_;
-      loss_ += touch.lost_share * P[i] * (touch.approach - 0.5 * jump[i]);
+      lose(laws_[touch.law].load, touch.lost_share * P[i] * (touch.approach - 0.5 * jump[i]));
     }
     // Driven off by others, or left with the share of its speed: no longer held.
     const bool leaves = touch.rate + jump[i] > std::max(1e-9 * size, weight_returns(touch));
@@ -419,8 +420,13 @@ void Impacts::land(const Vector& P, const Vector& jump) {
     const bool holds = std::abs(after) <= kStopped * std::abs(slip.speed);
     const double share =
         holds && slip.speed != 0.0 ? std::clamp(slip.at_impact / slip.speed, 0.0, 1.0) : 1.0;
-    loss_ -= 0.5 * share * P[i] * (slip.at_impact + after);
+    lose(friction_of(slip).load, -0.5 * share * P[i] * (slip.at_impact + after));
   }
+}
+
+void Impacts::lose(std::size_t load, double energy) {
+  loss_ += energy;
+  shares_.push_back({load, energy});
 }
 
 double Impacts::weight_returns(const Touch& touch) const {

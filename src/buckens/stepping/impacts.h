@@ -8,6 +8,7 @@
 #include "buckens/stepping/body_answer.h"
 #include "buckens/stepping/body_step.h"
 #include "buckens/stepping/push_answers.h"
+#include "buckens/stepping/step_settings.h"
 
 namespace buckens::stepping {
 
@@ -59,6 +60,8 @@ class Impacts {
   const std::vector<Landing>& landings() const { return landings_; }
   /// Energy lost in the impacts found last [J], and their number.
   double loss() const { return loss_; }
+  /// What of it each of the laws lost.
+  const std::vector<ImpactShare>& shares() const { return shares_; }
   int count() const { return count_; }
   /// From their mean instant, weighted by their strength, to the end of the step [s].
   double rest() const { return rest_; }
@@ -128,6 +131,7 @@ class Impacts {
   /// Speed up to which weight brings back what leaves within a step [m/s]: it does not count as
   /// leaving, or what has come to rest would rock on by it for ever.
   double weight_returns(const Touch& touch) const;
+  void lose(std::size_t load, double energy);
   void land_slips(std::size_t touch, bool is_held, const linalg::Vector& jump);
 
   const model::Model& model_;
@@ -143,6 +147,7 @@ class Impacts {
   PushAnswers answers_to_;
   std::vector<BodyJump> jumps_;
   std::vector<Landing> landings_;
+  std::vector<ImpactShare> shares_;
   double loss_ = 0, rest_ = 0, since_impulses_ = 0;
   int count_ = 0;
 };

@@ -161,7 +161,7 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
   ending_.begin(dynamics::rounding_length(model_, end_));
   steer(t);
   dynamics::evaluate_soft_rows(model_, at_evaluation(), scheme_.evaluation_time(t), around_, soft_,
-                               &reaction_slopes_, &slopes_);
+                               &reaction_slopes_, &slopes_, &joints_);
   follow_near();
   follow_released(t);
   bool is_closed = condense(t);

@@ -151,7 +151,7 @@ bool SmallNewton::form_tangent(std::vector<BodyStep>& bodies, bool rigid_rows_mo
 bool SmallNewton::regimes_hold(std::vector<BodyStep>& bodies, double t, const StepReport& report) {
   if (forces_.regimes == soft_.regimes) return true;
   dynamics::evaluate_soft_rows(model_, at_evaluation(), scheme_.evaluation_time(t), around_,
-                               soft_now_, &reaction_slopes_, &slopes_);
+                               soft_now_, &reaction_slopes_, &slopes_, &joints_);
   slopes_are_old_ = false;
   // Directions stay those of the predicted configuration, as of the joints.
   std::swap(soft_.stiffness, soft_now_.stiffness);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "buckens/linalg/ranks.h"
@@ -44,6 +45,12 @@ struct StepSettings {
   }
 };
 
+/// Energy that an impact took at one stop or contact, or by friction there.
+struct ImpactShare {
+  std::size_t load;  ///< index into Model::loads
+  double energy;     ///< [J]
+};
+
 /// Effort and residuals of one step.
 struct StepReport {
   int newton_iterations = 0;
@@ -53,13 +60,14 @@ struct StepReport {
   double velocity_residual = 0;  ///< max |ġ|
   int worst_row = -1;            ///< of λ, where |g| is largest
   /// The same for all rows on one scale: lengths as fractions of the model's length, angles in rad.
-  double opening = 0;          ///< [-]
-  double opening_rate = 0;     ///< [1/s]
-  int most_open_row = -1;      ///< of λ, where the opening is largest
-  double coupling_change = 0;  ///< last relative change of the coupling load
-  int impacts = 0;             ///< against rigid stops
-  double impact_loss = 0;      ///< energy lost in them [J]
-  double impact_rest = 0;      ///< from their mean instant to the end of the step [s]
+  double opening = 0;                            ///< [-]
+  double opening_rate = 0;                       ///< [1/s]
+  int most_open_row = -1;                        ///< of λ, where the opening is largest
+  double coupling_change = 0;                    ///< last relative change of the coupling load
+  int impacts = 0;                               ///< against rigid stops
+  double impact_loss = 0;                        ///< energy lost in them [J]
+  std::span<const ImpactShare> impact_shares{};  ///< of the loss, valid until the next step
+  double impact_rest = 0;  ///< from their mean instant to the end of the step [s]
   /// Whether accelerations have jumped, so that they have to be found anew at the end of the step:
   /// by impacts, or by rigid rows that now hold otherwise.
   bool must_settle = false;

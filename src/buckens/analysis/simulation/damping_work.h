@@ -39,6 +39,7 @@ class DampingWork {
   /// To be called when something else than a step has changed the last state.
   void start(const model::State& state);
 
+  std::size_t body() const { return index_; }
   /// Number of products with C or K so far.
   long num_products() const { return products_; }
 

@@ -231,7 +231,7 @@ void SimulationRun::step() {
   ++steps_taken_;
   statistics_->add_step(report, state);
   if (report.impacts > 0) {
-    work_->add_impacts(before_, state, report.impact_loss);
+    work_->add_impacts(before_, state, report);
   } else {
     work_->add(state);
   }
@@ -375,6 +375,7 @@ results::RunSummary SimulationRun::finish() {
   split_wall_time();
   summary_.end_time = state().t;
   statistics_->fill(*march_, summary_);
+  summary_.energy_account = work_->account(state());
   watch_->fill(state(), summary_);
   if (recording_) recording_->finish(summary_);
   return summary_;

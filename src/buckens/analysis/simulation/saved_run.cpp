@@ -18,6 +18,7 @@ void visit_work(const base::SaveVisit& visit, results::WorkBalance& work) {
   visit.number("external", work.external);
   visit.number("dissipated", work.dissipated);
   visit.number("balance", work.balance);
+  visit.vector("parts", work.parts, work.parts.size());
 }
 
 }  // namespace
@@ -47,6 +48,18 @@ void WorkAccount::visit_saved(const base::SaveVisit& visit) {
   visit_work(visit.inside("work"), work_);
   visit_work(visit.inside("work_before"), work_before_);
   visit.number("turnover", turnover_);
+  for (std::size_t k = 0; k < loads_before_.size(); ++k) {
+    const base::SaveVisit load = visit.inside("loads").inside(k);
+    load.number("supplied", loads_before_[k].supplied);
+    load.number("lost", loads_before_[k].lost);
+    load.number("rubbed", loads_before_[k].rubbed);
+  }
+  visit.vector("parts_start", parts_start_, parts_start_.size());
+  const base::SaveVisit start = visit.inside("start");
+  start.number("kinetic", start_.kinetic);
+  start.number("strain", start_.strain);
+  start.number("gravity", start_.gravity);
+  start.number("springs", start_.springs);
   for (std::size_t k = 0; k < meshes_.size(); ++k) {
     meshes_[k].visit_saved(visit.inside("meshes").inside(k));
   }

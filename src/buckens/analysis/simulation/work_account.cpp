@@ -8,15 +8,35 @@
 
 namespace buckens::analysis {
 
+namespace {
+
+/// Adds to powers at the start of a step, in `sums`, those at its end, for the mean of both.
+void add_halves(const std::vector<dynamics::LoadPower>& end, double dynamics::LoadPower::*which,
+                std::vector<dynamics::LoadPower>& sums) {
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    sums[k].*which = 0.5 * (sums[k].*which + end[k].*which);
+  }
+}
+
+}  // namespace
+
 WorkAccount::WorkAccount(const model::Model& model, const model::State& start, bool holds_at_states)
     : model_(model),
       joints_(model),
-      before_(powers(start)),
       laws_before_(start.memory.laws),
       t_(start.t),
       lambda_before_(start.lambda),
       lambda_start_(start.lambda),
-      lambda_time_(start.lambda_time) {
+      lambda_time_(start.lambda_time),
+      parts_(model),
+      start_(dynamics::energy(model, start)) {
+  forces_.account(model);
+  before_ = powers(start);
+  loads_before_ = forces_.of_loads;
+  work_.parts = linalg::Vector::Zero(static_cast<Eigen::Index>(parts_.size()));
+  parts_.set_stored(loads_before_, work_.parts);
+  parts_start_ = work_.parts;
+  work_before_ = work_;
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const body::Body& body = model.bodies[b];
     if (!body.is_flexible() || !body.flexible->is_damped()) continue;
@@ -43,10 +63,12 @@ WorkAccount::Powers WorkAccount::powers(const model::State& state) {
 
 void WorkAccount::take_inputs(const model::State& state) {
   before_ = powers(state);
+  loads_before_ = forces_.of_loads;
+  parts_.set_stored(loads_before_, work_.parts);
   laws_before_ = state.memory.laws;
 }
 
-double WorkAccount::landed(const model::State& state) const {
+double WorkAccount::landed(const model::State& state) {
   double sum = 0;
   const auto motions = dynamics::motions_of(model_, state);
   for (std::size_t k = 0; k < model_.loads.size(); ++k) {
@@ -55,8 +77,11 @@ double WorkAccount::landed(const model::State& state) const {
     if (laws_before_[load.first_state] != 0.0 || state.memory.is_off(k)) continue;
     const auto first = dynamics::evaluate_marker(model_, load.first, motions).motion;
     const auto second = dynamics::evaluate_marker(model_, load.second, motions).motion;
-    sum += dynamics::action_of(model_, k, state.t, dynamics::circumstances_of(state), first, second)
-               .dissipation;
+    const double power =
+        dynamics::action_of(model_, k, state.t, dynamics::circumstances_of(state), first, second)
+            .dissipation;
+    means_[k].lost -= 0.5 * power;
+    sum += power;
   }
   return sum;
 }
@@ -67,6 +92,8 @@ void WorkAccount::take_event(const model::State& state, double gained, double lo
   lambda_time_ = state.lambda_time;
   work_.external += gained;
   work_.dissipated += lost;
+  part(parts_.of_events()) += gained;
+  part(parts_.of_locks()) += lost;
   turnover_ += std::abs(gained) + lost;
 }
 
@@ -86,10 +113,15 @@ void WorkAccount::add(const model::State& state) {
   Powers mean;
   mean.active = 0.5 * (before_.active + now.active);
   mean.damping = 0.5 * (before_.damping + now.damping);
-  add(state, now, mean, 0.0, RatesAtEnd::are_smooth);
+  means_ = loads_before_;
+  add_halves(forces_.of_loads, &dynamics::LoadPower::supplied, means_);
+  add_halves(forces_.of_loads, &dynamics::LoadPower::lost, means_);
+  add_halves(forces_.of_loads, &dynamics::LoadPower::rubbed, means_);
+  add(state, now, mean, nullptr, RatesAtEnd::are_smooth);
 }
 
-void WorkAccount::add_impacts(const model::State& before, const model::State& state, double loss) {
+void WorkAccount::add_impacts(const model::State& before, const model::State& state,
+                              const stepping::StepReport& impacts) {
   const double h = state.t - t_;
   auto first = dynamics::motions_of(model_, before);
   auto last = dynamics::motions_of(model_, state);
@@ -101,15 +133,23 @@ void WorkAccount::add_impacts(const model::State& before, const model::State& st
     first[b].y_dot = last[b].y_dot = (last[b].y - first[b].y) / h;
   }
   Powers mean;
-  mean.active = 0.5 * (powers_at(before, first).active + powers_at(state, last).active);
+  means_ = loads_before_;
+  mean.active = powers_at(before, first).active;
+  for (std::size_t k = 0; k < means_.size(); ++k) {
+    means_[k].supplied = forces_.of_loads[k].supplied;
+  }
+  mean.active = 0.5 * (mean.active + powers_at(state, last).active);
+  add_halves(forces_.of_loads, &dynamics::LoadPower::supplied, means_);
   // What closed rows hold must be seen at rest.
   const Powers now = powers(state);
+  add_halves(forces_.of_loads, &dynamics::LoadPower::lost, means_);
+  add_halves(forces_.of_loads, &dynamics::LoadPower::rubbed, means_);
   mean.damping = 0.5 * (before_.damping + now.damping - landed(state));
-  add(state, now, mean, loss, RatesAtEnd::have_jumped);
+  add(state, now, mean, &impacts, RatesAtEnd::have_jumped);
 }
 
 void WorkAccount::add(const model::State& state, const Powers& now, const Powers& loads,
-                      double impact_loss, RatesAtEnd rates) {
+                      const stepping::StepReport* impacts, RatesAtEnd rates) {
   const double h = state.t - t_;
   // Joints receive −λ·g_t from their drives. A λ at mid-step is multiplied by the mean of g_t; one
   // at a later instant (Wilson) is interpolated to the end of the step.
@@ -122,18 +162,69 @@ void WorkAccount::add(const model::State& state, const Powers& now, const Powers
   const double drive = is_mean ? -0.5 * state.lambda.dot(before_.g_t + now.g_t)
                                : -0.5 * (lambda_start_.dot(before_.g_t) + lambda.dot(now.g_t));
   const double active = loads.active + drive;
-  double dissipated = h * loads.damping + impact_loss;
-  for (DampingWork& mesh : meshes_) dissipated += mesh.add(state, forces_, rates);
+  double dissipated = h * loads.damping + (impacts != nullptr ? impacts->impact_loss : 0.0);
   work_before_ = work_;
+  for (DampingWork& mesh : meshes_) {
+    const double lost = mesh.add(state, forces_, rates);
+    dissipated += lost;
+    part(parts_.of_body(mesh.body())) += lost;
+  }
+  add_parts(h, is_mean ? state.lambda : lambda_start_, lambda, now.g_t, impacts);
   work_.external += h * active;
   work_.dissipated += dissipated;
   turnover_ += h * std::abs(active) + dissipated;
   before_ = now;
+  std::swap(loads_before_, forces_.of_loads);
   if (model_.num_rigid_rows() > 0) laws_before_ = state.memory.laws;
   lambda_before_ = state.lambda;
   lambda_start_ = lambda;
   lambda_time_ = state.lambda_time;
   t_ = state.t;
+}
+
+void WorkAccount::add_parts(double h, const linalg::Vector& first, const linalg::Vector& last,
+                            const linalg::Vector& g_t, const stepping::StepReport* impacts) {
+  for (std::size_t k = 0; k < means_.size(); ++k) {
+    const results::EnergyParts::OfLoad& load = parts_.of_load(k);
+    part(load.supplied) += h * means_[k].supplied;
+    part(load.lost) += h * means_[k].lost;
+    part(load.rubbed) += h * means_[k].rubbed;
+  }
+  if (impacts != nullptr) {
+    for (const stepping::ImpactShare& share : impacts->impact_shares) {
+      part(parts_.of_load(share.load).struck) += share.energy;
+    }
+  }
+  for (const results::EnergyParts::OfDrive& drive : parts_.of_drives()) {
+    for (int row = drive.first_row; row < drive.first_row + drive.num_rows; ++row) {
+      part(drive.part) -= 0.5 * h * (first[row] * before_.g_t[row] + last[row] * g_t[row]);
+    }
+  }
+  parts_.set_stored(forces_.of_loads, work_.parts);
+}
+
+results::EnergyAccount WorkAccount::account(const model::State& state) const {
+  using Side = results::EnergyEntry::Side;
+  results::EnergyAccount out;
+  const auto add = [&](Side side, const std::string& kind, const std::string& of, double energy) {
+    if (energy != 0.0) out.entries.push_back({side, kind, of, energy});
+  };
+  constexpr auto kNames = choice_names(model::EnergyKind::total);
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    const results::EnergyPart& own = parts_[k];
+    const auto i = static_cast<Eigen::Index>(k);
+    const Side side = results::is_work(own.kind)         ? Side::brought_in
+                      : results::is_dissipated(own.kind) ? Side::lost
+                                                         : Side::kept;
+    const double before = side == Side::kept ? parts_start_[i] : 0.0;
+    add(side, kNames[static_cast<std::size_t>(own.kind)], own.of, work_.parts[i] - before);
+  }
+  const dynamics::Energy now = dynamics::energy(model_, state);
+  add(Side::kept, "kinetic", "", now.kinetic - start_.kinetic);
+  add(Side::kept, "strain", "", now.strain - start_.strain);
+  add(Side::kept, "gravity", "", now.gravity - start_.gravity);
+  out.unexplained = now.total() - start_.total() - work_.external + work_.dissipated;
+  return out;
 }
 
 }  // namespace buckens::analysis

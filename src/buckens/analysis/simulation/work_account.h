@@ -8,13 +8,17 @@
 #include "buckens/dynamics/joint_set.h"
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
+#include "buckens/results/energy_parts.h"
 #include "buckens/results/observation.h"
+#include "buckens/results/run_summary.h"
+#include "buckens/stepping/step_settings.h"
 
 namespace buckens::analysis {
 
 /// Integrates the work of loads, drives and dampers over the steps of a run: trapezoidal rule,
 /// so its error is of order h² like that of the steps. Dissipation in meshes comes from
-/// DampingWork.
+/// DampingWork. Keeps account of each load, drive, damped body and impact by itself, too; these sum
+/// up to the whole within rounding.
 class WorkAccount {
  public:
   /// @param holds_at_states whether states satisfy the equations of motion, see DampingWork
@@ -24,8 +28,9 @@ class WorkAccount {
   void add(const model::State& state);
   /// The same for a step in which something struck: rates jump within it, so those at its ends do
   /// not tell the way, and the power of loads is formed with the mean ones.
-  /// @param before the last state, @param loss energy that the impacts took [J]
-  void add_impacts(const model::State& before, const model::State& state, double loss);
+  /// @param before the last state, @param impacts of the step: what they took
+  void add_impacts(const model::State& before, const model::State& state,
+                   const stepping::StepReport& impacts);
 
   /// To be called when inputs of the last state were changed: the next step starts with them.
   void take_inputs(const model::State& state);
@@ -43,6 +48,10 @@ class WorkAccount {
   const results::WorkBalance& work_before() const { return work_before_; }
   /// ∫|P| dt [J]: a measure of the energy that passed through the mechanism.
   double turnover() const { return turnover_; }
+  /// The order of results::WorkBalance::parts.
+  const results::EnergyParts& parts() const { return parts_; }
+  /// All that is not zero, up to this state.
+  results::EnergyAccount account(const model::State& state) const;
   /// Number of products with stiffness or damping matrices of meshes so far.
   long num_products() const;
 
@@ -56,16 +65,22 @@ class WorkAccount {
     double damping = 0;  ///< of dampers [W]
     linalg::Vector g_t;  ///< ∂g/∂t of the joints
   };
-  /// Leaves the forces at the state in forces_.
+  /// Leaves the forces at the state in forces_, and powers of loads with them.
   Powers powers(const model::State& state);
   /// Of loads and dampers at a configuration, with other velocities.
   Powers powers_at(const model::State& state, const std::vector<dynamics::BodyMotion>& motions);
   /// @param loads mean power of loads and dampers over the step
-  void add(const model::State& state, const Powers& now, const Powers& loads, double impact_loss,
-           RatesAtEnd rates);
+  /// @param impacts null: none
+  void add(const model::State& state, const Powers& now, const Powers& loads,
+           const stepping::StepReport* impacts, RatesAtEnd rates);
+  /// Adds the step to the parts: means_ of loads over it, impacts, and what drives do.
+  /// @param first,last multipliers at its start and end
+  void add_parts(double h, const linalg::Vector& first, const linalg::Vector& last,
+                 const linalg::Vector& g_t, const stepping::StepReport* impacts);
+  double& part(std::size_t k) { return work_.parts[static_cast<Eigen::Index>(k)]; }
   /// Power of friction in contacts that closed in an impact of this step: it is in the loss of the
-  /// impact, and begins with the next step [W].
-  double landed(const model::State& state) const;
+  /// impact, and begins with the next step [W]. Takes it out of means_.
+  double landed(const model::State& state);
 
   const model::Model& model_;
   dynamics::JointSet joints_;
@@ -79,6 +94,11 @@ class WorkAccount {
   double lambda_time_ = 0;                       ///< instant of lambda_before_
   results::WorkBalance work_, work_before_;
   double turnover_ = 0;
+  results::EnergyParts parts_;
+  std::vector<dynamics::LoadPower> loads_before_;  ///< at the last state
+  std::vector<dynamics::LoadPower> means_;         ///< over the step
+  linalg::Vector parts_start_;                     ///< work_.parts at the start
+  dynamics::Energy start_;
 };
 
 }  // namespace buckens::analysis

@@ -255,6 +255,56 @@ TEST(JointSet, LawsOnJointsActAsAloneSoFarAsTheyAreOn) {
   check(3);  // bristles without a bound are bent at once
 }
 
+void expect_same(const BodyRow& found, const BodyRow& expected) {
+  EXPECT_EQ(found.body, expected.body);
+  EXPECT_EQ(found.translation_row, expected.translation_row);
+  EXPECT_EQ(found.rotation_row, expected.rotation_row);
+  EXPECT_LE((found.frame - expected.frame).norm(), kOrder);
+  EXPECT_LE((found.interface - expected.interface).norm(), kOrder);
+}
+
+void expect_same(const SoftRows& found, const SoftRows& expected) {
+  EXPECT_EQ(found.regimes, expected.regimes);
+  EXPECT_EQ(found.rigid, expected.rigid);
+  EXPECT_EQ(found.is_closed, expected.is_closed);
+  ASSERT_EQ(found.rows.size(), expected.rows.size());
+  for (std::size_t k = 0; k < found.rows.size(); ++k) {
+    expect_same(found.rows[k].first, expected.rows[k].first);
+    expect_same(found.rows[k].second, expected.rows[k].second);
+    // Relative to themselves: friction is as stiff as its load over its slip.
+    EXPECT_NEAR(found.stiffness[k], expected.stiffness[k], kOrder * (1 + expected.stiffness[k]));
+    EXPECT_NEAR(found.damping[k], expected.damping[k], kOrder * (1 + expected.damping[k]));
+  }
+}
+
+TEST(JointSet, LawsOnJointsGiveWayAsAlone) {
+  const model::Model model = with_laws_on_joints();
+  const std::vector<BodyMotion> motions = any_motions(model);
+  Vector lambda(model.num_constraint_rows());
+  for (int k = 0; k < static_cast<int>(lambda.size()); ++k) lambda[k] = 5.0 * any_number(7 * k);
+  model::RowMemory memory = model::placed_state(model).memory;
+  for (Eigen::Index k = 0; k < memory.laws.size(); ++k) memory.laws[k] += 0.001;
+  const JointSet joints(model);
+  const ReactionSlopes followers(model);
+  const Circumstances around{nullptr, &memory, &lambda, nullptr, nullptr};
+  for (const bool is_one_off : {false, true}) {
+    memory.off.assign(model.loads.size(), 0);
+    memory.off[0] = is_one_off ? 1 : 0;
+    SoftRows expected, found;
+    std::vector<ReactionSlope> expected_slopes, slopes;
+    evaluate_soft_rows(model, motions, kInstant, around, expected, &followers, &expected_slopes);
+    evaluate_soft_rows(model, motions, kInstant, around, found, &followers, &slopes, &joints);
+    expect_same(found, expected);
+    EXPECT_GT(slopes.size(), 3U);
+    ASSERT_EQ(slopes.size(), expected_slopes.size());
+    for (std::size_t k = 0; k < slopes.size(); ++k) {
+      EXPECT_EQ(slopes[k].soft, expected_slopes[k].soft);
+      EXPECT_EQ(slopes[k].row, expected_slopes[k].row);
+      EXPECT_NEAR(slopes[k].value, expected_slopes[k].value, kOrder);
+    }
+  }
+}
+
 TEST(RowBlocks, RowsBetweenTheSameMarkersAreOneBlock) {
   const model::Model model = all_joints();
   const std::vector<BodyMotion> motions = any_motions(model);

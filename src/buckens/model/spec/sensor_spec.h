@@ -297,10 +297,34 @@ struct StressSensor : SectionPlace {
   }
 };
 
-enum class EnergyKind { total, kinetic, potential, strain, work, dissipated, balance };
+enum class EnergyKind {
+  total,
+  kinetic,
+  potential,
+  strain,
+  work,
+  dissipated,
+  balance,
+  // Parts of work.
+  loads,
+  drives,
+  events,
+  // Parts of what is dissipated.
+  joint_friction,
+  contact_friction,
+  belts,
+  impacts,
+  damping,
+  // What force laws hold.
+  springs,
+  stops,
+  contacts
+};
 
-constexpr std::array<const char*, 7> choice_names(EnergyKind) {
-  return {"total", "kinetic", "potential", "strain", "work", "dissipated", "balance"};
+constexpr std::array<const char*, 18> choice_names(EnergyKind) {
+  return {"total",   "kinetic", "potential", "strain",  "work",           "dissipated",
+          "balance", "loads",   "drives",    "events",  "joint-friction", "contact-friction",
+          "belts",   "impacts", "damping",   "springs", "stops",          "contacts"};
 }
 
 struct EnergySensor {
@@ -311,12 +335,23 @@ struct EnergySensor {
       "gravity plus springs; `total` is kinetic plus potential; `work` of loads and drives and "
       "what "
       "dampers `dissipated` since t = 0; `balance` is the part of the change of the total since t "
-      "= 0 that these two do not explain";
+      "= 0 that these two do not explain. Parts of the work: `loads`, `drives` (with motors), "
+      "`events` (what they switch on less what they switch off). Parts of what is dissipated: "
+      "`joint-friction` (with brakes), `contact-friction`, `belts` (and cables: slip and damping), "
+      "`impacts` (of rigid stops, contacts and locks), `damping` (the rest: dampers, bushings, "
+      "materials, yielding stops and contacts). Energy held by `springs` (and bushings), yielding "
+      "`stops` and `contacts`";
   EnergyKind kind = EnergyKind::total;
+  std::optional<std::string> part;  ///< name whose part of it is meant
 
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("kind", kind, "which energy").shorthand());
+    visit(base::field("of", part,
+                      "name of a load, joint, contact or body: only its part of the work, of what "
+                      "is dissipated, or of what is held; of a joint with all laws that act on it")
+              .like("pin_friction")
+              .otherwise("the whole model"));
   }
 };
 

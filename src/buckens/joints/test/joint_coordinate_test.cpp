@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/joints/joint_coordinate.h"
+
+#include <gtest/gtest.h>
+
+#include "buckens/spatial/rotation.h"
+
+namespace buckens::joints {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+TEST(JointCoordinate, OneLookIsAllOfIt) {
+  const Matrix3d placed = spatial::exp_rotation(Vector3d(0.2, -0.4, 0.1)).toRotationMatrix();
+  const Vector3d axis = Vector3d(1, 2, -2) / 3.0, other = Vector3d(2, 1, 2) / 3.0;
+  const spatial::MarkerMotion F{{0.1, 0.2, -0.3},
+                                spatial::exp_rotation(Vector3d(0.5, 0.3, -0.2)).toRotationMatrix(),
+                                {1.0, -2.0, 0.5},
+                                {0.3, 0.1, -0.7}};
+  const spatial::MarkerMotion M{{1.1, -0.4, 0.6},
+                                spatial::exp_rotation(Vector3d(-1.2, 0.8, 2.1)).toRotationMatrix(),
+                                {-0.4, 3.0, 0.2},
+                                {-0.6, 0.9, 0.4}};
+  Eigen::Matrix<double, 12, 1> V;
+  V << F.w, F.v, M.w, M.v;
+  for (const JointCoordinate& coordinate :
+       {JointCoordinate::angle(axis, placed), JointCoordinate::first_angle(axis, other, placed),
+        JointCoordinate::second_angle(axis, other, placed),
+        JointCoordinate::displacement(axis, {0.3, 0.2, 0.1}), JointCoordinate::length()}) {
+    const CoordinateLook look = coordinate.look(F, M);
+    const int kind = static_cast<int>(coordinate.kind());
+    EXPECT_EQ(look.fraction, coordinate.fraction(F, M)) << kind;
+    EXPECT_EQ(look.J, coordinate.derivatives(F, M)) << kind;
+    EXPECT_NEAR(look.rate, look.J.dot(V), 1e-14) << kind;  // rounding
+    EXPECT_GT(std::abs(look.rate), 0.1) << kind;
+  }
+}
+
+}  // namespace
+}  // namespace buckens::joints
