@@ -40,6 +40,11 @@ struct BodyStep {
              TaskPool* pool = nullptr);
 
   /// Motions are written to `out`, whose buffers are reused.
+  void motion_at_start(dynamics::BodyMotion& out) const {
+    out.frame = before;
+    out.y = y_before;
+    out.y_dot = y_dot_before;
+  }
   void motion_at_end(const Scheme& scheme, const BodyAnswer* answer,
                      dynamics::BodyMotion& out) const;
   /// The same with the pose that the velocities alone lead to, and the initial shape if the body

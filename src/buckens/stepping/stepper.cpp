@@ -283,8 +283,9 @@ void Stepper::form_next_state(const model::State& state) {
 
 void Stepper::take_impacts(StepReport& report) {
   if (!impacts_->can_happen()) return;
-  std::vector<dynamics::BodyMotion> motions = newton_->motions_at_end();
-  if (!impacts_->find(motions, bodies_, newton_->rows_in_use(), newton_->around(), next_.t)) return;
+  const std::vector<dynamics::BodyMotion>& before = newton_->motions_at_end();
+  if (!impacts_->find(before, bodies_, newton_->rows_in_use(), newton_->around(), next_.t)) return;
+  std::vector<dynamics::BodyMotion> motions = before;
   for (std::size_t b = 0; b < bodies_.size(); ++b) add_jump(b, impacts_->jumps()[b], motions[b]);
   model::RowMemory memory;
   dynamics::advance_memory(model_, motions, next_.t, newton_->around(), memory);
@@ -407,7 +408,9 @@ StepReport Stepper::take_general_step(const model::State& state) {
   newton_->use({&state.inputs, &state.memory, &lambda_});
   start_bodies(state);
   if (impacts_->can_happen()) {
-    impacts_->start(dynamics::motions_of(model_, state), state.memory);
+    at_start_.resize(bodies_.size());
+    for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b].motion_at_start(at_start_[b]);
+    impacts_->start(at_start_, state.memory);
   }
   CouplingRounds rounds(settings_);
   for (int round = 0;; ++round) {

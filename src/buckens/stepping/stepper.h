@@ -141,7 +141,8 @@ class Stepper {
   Forecast forecast_;
   bool forecasts_;  // no rows that come and go, which a forecast does not know
   std::unique_ptr<Impacts> impacts_;
-  std::unique_ptr<StrandStep> strand_;  // null: never
+  std::vector<dynamics::BodyMotion> at_start_;  // of the step, for impacts_
+  std::unique_ptr<StrandStep> strand_;          // null: never
   std::vector<BodyStep> bodies_;
   std::vector<std::unique_ptr<FlexibleStep>> flexible_;  // null: rigid
   std::vector<FactorGroup> groups_;
