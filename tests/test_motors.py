@@ -144,6 +144,19 @@ initial: {joints: {shaft: {speed: 1.2}}}
     assert error[back:] == pytest.approx(fades, abs=1e-5 * error[back])
 
 
+def test_a_motor_on_its_way_back_has_its_torque_from_the_start(sensors):
+    """x' = (a - x)/T, so x'' = -x'/T from t = 0 on, though the angle aimed at does not move."""
+    J, T, a = 0.05, 0.2, 0.1
+    out = sensors(wheel("""loads: {motor: {hinge-motor: {joint: shaft, angle: 0.1, return-time: 200 ms, torque-limit: 3 N m}}}
+initial: {joints: {shaft: {speed: 0.5}}}
+""", "0.2 s", "0.5 ms", "5 ms"))
+    exact = a * (1 - numpy.exp(-out["t"] / T))
+    # Of second order in h/T: (h/T)² t/(12 T) of 0.1, 5e-8.
+    assert out["shaft.value"] == pytest.approx(exact, abs=1e-7)
+    # The multiplier finds its way in the first steps: 3e-5, and a quarter of it with half the step.
+    assert out["torque"] == pytest.approx(J * 0.5 / T * numpy.exp(-out["t"] / T), rel=5e-5)
+
+
 def test_a_motor_without_gains_has_a_limit_of_power(sensors):
     """J w w' = P once P/w is below the limit, 3 N m up to 20 rad/s; then it holds its speed; braking has no such limit."""
     J, P = 0.05, 60.0
@@ -223,6 +236,8 @@ output: {every: 1 ms, sensors: {a: {joint-coordinate: a}, b: {joint-coordinate: 
     ("hinge-motor: {joint: shaft, angle: 1, return-time: 0.1}", ["without `stiffness`", "`torque-limit`, which is missing"]),
     ("hinge-motor: {joint: shaft, speed: 1, return-time: 0.1, torque-limit: 5}", ["no `angle` to come back to"]),
     ("hinge-motor: {joint: shaft, angle: 1, stiffness: 3, return-time: 0.1}", ["belongs to a motor without gains"]),
+    ("hinge-motor: {joint: shaft, angle: 1, speed: 2, return-time: 0.1, torque-limit: 5}", ["rate of `angle` is known", "remove it"]),
+    ("hinge-motor: {joint: shaft, angle: 1, return-time: 4 ms, torque-limit: 5}", ["0.004 s are less than 5 steps of 0.001 s", "0.005 s at least"]),
     ("hinge-motor: {joint: shaft, torque: 1, damping: 1}", ["needs a target `speed`"]),
     ("hinge-motor: {joint: shaft, torque: 1, torque-limit: -1}", ["be positive", "torque-limit"]),
     ("slide-motor: {joint: shaft, force: 1}", ["\"shaft\" is a revolute", "no displacement"]),

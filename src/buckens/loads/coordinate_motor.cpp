@@ -98,18 +98,21 @@ bool CoordinateServo::uses_signals() const {
          (data_.speed && data_.speed->uses_signals());
 }
 
-double CoordinateServo::aimed(const Sight& sight) const {
-  double out = 0.0;
-  if (data_.speed) out = data_.speed->value(sight.t, sight.signals);
-  if (!data_.position) return out;
-  if (!data_.speed) out = data_.position->rate(sight.t);
-  const double wanted = data_.position->value(sight.t, sight.signals);
-  return out + (wanted - sight.coordinate.value) / data_.return_time;
+double CoordinateServo::law_rate(const Sight& sight) const {
+  return data_.speed ? data_.speed->value(sight.t, sight.signals) : data_.position->rate(sight.t);
 }
 
-double CoordinateServo::aimed_acceleration(double t) const {
-  if (data_.speed) return data_.speed->rate(t);
-  return data_.position->formula ? 0.0 : data_.position->law.acceleration(t);
+double CoordinateServo::aimed(const Sight& sight) const {
+  if (!data_.position) return law_rate(sight);
+  const double wanted = data_.position->value(sight.t, sight.signals);
+  return law_rate(sight) + (wanted - sight.coordinate.value) / data_.return_time;
+}
+
+double CoordinateServo::aimed_acceleration(const Sight& sight) const {
+  if (!data_.position) return data_.speed->rate(sight.t);
+  const bool is_law = !data_.speed && !data_.position->formula;
+  const double out = is_law ? data_.position->law.acceleration(sight.t) : 0.0;
+  return out + (law_rate(sight) - sight.coordinate.rate) / data_.return_time;
 }
 
 double CoordinateServo::most(const Sight& sight, double force) const {

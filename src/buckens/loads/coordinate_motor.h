@@ -92,11 +92,13 @@ class CoordinateServo final : public RateHold {
 
   bool uses_signals() const override;
   bool is_source() const override { return true; }
-  double aimed_acceleration(double t) const override;
+  double aimed_acceleration(const Sight& sight) const override;
 
  private:
   double most(const Sight& sight, double force) const override;
   double aimed(const Sight& sight) const override;
+  /// Of its law, without what leads back to the position.
+  double law_rate(const Sight& sight) const;
 
   ServoData data_;
 };

@@ -37,8 +37,9 @@ class RigidLaw : public ForceElement {
   virtual double restitution(double /*approach*/) const { return 0.0; }
   /// A motor: its power comes from outside.
   virtual bool is_source() const { return false; }
-  /// Of the coordinate while the row is closed, as far as a law of time says [m/s²] or [rad/s²].
-  virtual double aimed_acceleration(double /*t*/) const { return 0.0; }
+  /// Of the coordinate while the row is closed, as far as laws of time and the motion say [m/s²] or
+  /// [rad/s²].
+  virtual double aimed_acceleration(const Sight& /*sight*/) const { return 0.0; }
 
  protected:
   /// What the row leaves open and which stand follows, without the force itself.

@@ -9,6 +9,7 @@
 #include "buckens/dynamics/coupling_terms.h"
 #include "buckens/dynamics/forces.h"
 #include "buckens/dynamics/frame_equation.h"
+#include "buckens/dynamics/travel.h"
 #include "buckens/linalg/conjugate_gradients.h"
 #include "buckens/loads/rigid_law.h"
 #include "buckens/stepping/rigid_rows.h"
@@ -116,10 +117,18 @@ class Accelerations {
       if (!given_.empty() && given_[static_cast<std::size_t>(soft.rigid[k])] != 0) continue;
       const model::Load& load = model_.load_of_rigid_row(soft.rigid[k]);
       rows_.push_back(soft.rows[k]);
-      const auto& law = static_cast<const loads::RigidLaw&>(*load.element);
-      bias_.push_back(bias_of(load, motions) - law.aimed_acceleration(state_.t));
+      bias_.push_back(bias_of(load, motions) - aimed_acceleration(load, motions));
       closed_.push_back(load.first_state + 1);
     }
+  }
+
+  double aimed_acceleration(const model::Load& load,
+                            const std::vector<dynamics::BodyMotion>& motions) const {
+    const auto index = static_cast<std::size_t>(&load - model_.loads.data());
+    const dynamics::LoadEnds ends = dynamics::ends_of(model_, load, motions, &state_.memory);
+    return static_cast<const loads::RigidLaw&>(*load.element)
+        .aimed_acceleration(
+            dynamics::sight_of(model_, index, state_.t, dynamics::circumstances_of(state_), ends));
   }
 
   double bias_of(const model::Load& load, const std::vector<dynamics::BodyMotion>& motions) const {

@@ -157,15 +157,35 @@ Found exact_motor_problem(const loads::MotorSpec& spec, bool turns) {
 }
 
 /// A position is held exactly on the way back to it, or by gains.
-Found return_problem(const loads::MotorSpec& spec, const char* position) {
+Found return_problem(const loads::MotorSpec& spec, const char* position, const char* speed) {
   if (!spec.position) {
     return Finding{
         "return-time",
         fmt::format("there is no `{0}` to come back to; give this `{0}`, or remove it", position)};
   }
-  if (spec.stiffness == 0.0 && spec.damping == 0.0) return std::nullopt;
+  if (spec.stiffness > 0.0 || spec.damping > 0.0) {
+    return Finding{"return-time",
+                   "it belongs to a motor without gains; remove it, or `stiffness` and `damping`"};
+  }
+  if (spec.speed && !spec.position->uses_signals()) {
+    return Finding{speed,
+                   fmt::format("the rate of `{0}` is known from its law, and this one would lead "
+                               "away from it; remove it, or give `{0}` by signals",
+                               position)};
+  }
+  return std::nullopt;
+}
+
+/// The way back is left to the iteration of a step, which needs it to take some steps.
+Found return_step_problem(const loads::MotorSpec& spec, const ModelDescription& model) {
+  constexpr double kLeastSteps = 5;
+  if (!spec.return_time || !model.simulation) return std::nullopt;
+  const double step = model.simulation->step.value_or(0.0);
+  if (*spec.return_time >= kLeastSteps * step * (1 - 1e-12)) return std::nullopt;
   return Finding{"return-time",
-                 "it belongs to a motor without gains; remove it, or `stiffness` and `damping`"};
+                 fmt::format("{:g} s are less than {:g} steps of {:g} s; give {:g} s at least, or "
+                             "a smaller `step`",
+                             *spec.return_time, kLeastSteps, step, kLeastSteps * step)};
 }
 
 /// A gain aims at something, and a motor does something.
@@ -173,7 +193,7 @@ Found motor_problem(const loads::MotorSpec& spec, bool turns) {
   const char* position = turns ? "angle" : "displacement";
   const char* speed = turns ? "speed" : "velocity";
   if (spec.return_time) {
-    if (Found found = return_problem(spec, position)) return found;
+    if (Found found = return_problem(spec, position, speed)) return found;
   } else if (spec.position && spec.stiffness == 0.0) {
     return Finding{
         position,
@@ -277,12 +297,14 @@ Found own_joint_problem(const loads::BallFrictionSpec& spec, const ModelDescript
 
 Found own_joint_problem(const loads::HingeMotorSpec& spec, const ModelDescription& model) {
   if (Found found = angle_problem(spec, model)) return found;
-  return motor_problem(spec, true);
+  if (Found found = motor_problem(spec, true)) return found;
+  return return_step_problem(spec, model);
 }
 
 Found own_joint_problem(const loads::SlideMotorSpec& spec, const ModelDescription& model) {
   if (Found found = coordinate_problem(spec.joint, false, model)) return found;
-  return motor_problem(spec, false);
+  if (Found found = motor_problem(spec, false)) return found;
+  return return_step_problem(spec, model);
 }
 
 Found own_joint_problem(const loads::HingeBrakeSpec& spec, const ModelDescription& model) {
