@@ -25,7 +25,7 @@ constexpr double kHeldByOthers = 1e-10;
 class ConeEquations {
  public:
   ConeEquations(const Matrix& D, const Vector& b, const std::vector<ConeRows>& places)
-      : D_(D), b_(b), places_(places), F(b.size()), A(D.rows(), D.cols()) {
+      : D_(D), b_(b), places_(places), F_(b.size()), A_(D.rows(), D.cols()) {
     for (const ConeRows& place : places) {
       double sum = 0.0;
       for (const Eigen::Index row : place.rows) sum = std::max(sum, D(row, row));
@@ -37,6 +37,10 @@ class ConeEquations {
     const Vector w = D_ * P - b_;
     for (std::size_t k = 0; k < places_.size(); ++k) form_place(k, P, w);
   }
+  /// What is open of the equations [m/s].
+  const Vector& residual() const { return F_; }
+  /// Its derivative with respect to the impulses.
+  const Matrix& jacobian() const { return A_; }
 
  private:
   void form_place(std::size_t k, const Vector& P, const Vector& w) {
@@ -47,27 +51,27 @@ class ConeEquations {
     const Eigen::Index count = static_cast<Eigen::Index>(place.rows.size()) - 1;
     if (!is_pressed) {
       for (const Eigen::Index row : place.rows) {
-        F[row] = d * P[row];
-        A.row(row).setZero();
-        A(row, row) = d;
+        F_[row] = d * P[row];
+        A_.row(row).setZero();
+        A_(row, row) = d;
       }
       return;
     }
-    F[across] = w[across];
-    A.row(across) = D_.row(across);
+    F_[across] = w[across];
+    A_.row(across) = D_.row(across);
     if (count == 0) return;
     const std::vector<Eigen::Index> along(place.rows.begin() + 1, place.rows.end());
     const double most = place.coefficient * std::max(d * P[across], 0.0);
     const Vector trial = d * P(along) - w(along);
     const double size = trial.norm();
     if (size <= most) {
-      F(along) = w(along);
-      A(along, Eigen::all) = D_(along, Eigen::all);
+      F_(along) = w(along);
+      A_(along, Eigen::all) = D_(along, Eigen::all);
       return;
     }
     // d P_t = most · trial/|trial|
     const Vector towards = trial / size;
-    F(along) = d * P(along) - most * towards;
+    F_(along) = d * P(along) - most * towards;
     const Matrix turns =
         (most / size) * (Matrix::Identity(count, count) - towards * towards.transpose());
     Matrix rows = turns * D_(along, Eigen::all);
@@ -77,17 +81,15 @@ class ConeEquations {
       }
       rows(m, across) -= place.coefficient * d * towards[m];
     }
-    A(along, Eigen::all) = rows;
+    A_(along, Eigen::all) = rows;
   }
 
   const Matrix& D_;
   const Vector& b_;
   const std::vector<ConeRows>& places_;
   std::vector<double> scales_;  // of each place
-
- public:
-  Vector F;  ///< [m/s]
-  Matrix A;  ///< ∂F/∂P
+  Vector F_;
+  Matrix A_;
 };
 
 /// Places that are not pressed have no impulses but rounding: none.
@@ -109,7 +111,7 @@ bool find_by_newton(const Matrix& D, const Vector& b, const std::vector<ConeRows
   int idle = 0;
   for (int k = 0; k < kMostNewtons; ++k) {
     equations.form(P);
-    const double open = equations.F.cwiseAbs().maxCoeff();
+    const double open = equations.residual().cwiseAbs().maxCoeff();
     const double size = std::max((D.cwiseAbs() * P.cwiseAbs()).maxCoeff(), b.cwiseAbs().maxCoeff());
     if (!(open < HUGE_VAL)) return false;
     // Rounding is reached where it falls no further.
@@ -120,8 +122,8 @@ bool find_by_newton(const Matrix& D, const Vector& b, const std::vector<ConeRows
     idle = open < 0.5 * before ? 0 : idle + 1;
     if (idle >= kMostIdle) return false;
     before = open;
-    solver.compute(equations.A);
-    P -= solver.solve(equations.F);
+    solver.compute(equations.jacobian());
+    P -= solver.solve(equations.residual());
   }
   return false;
 }

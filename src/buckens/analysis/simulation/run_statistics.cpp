@@ -17,8 +17,8 @@ constexpr double kNoEnergy = 1e-12;
 std::string describe_undecided(long undecided, long steps) {
   return fmt::format(
       "in {} of {} steps no combination of sticking, sliding and letting go satisfied all places "
-      "of "
-      "rigid contacts and stops, and the last one was taken; look at the energy balance, and use a "
+      "of rigid contacts and stops, and the last one was taken; look at the energy balance, and "
+      "use a "
       "smaller step or a `stiffness` if it is open",
       undecided, steps);
 }
