@@ -6,8 +6,9 @@
 
 namespace buckens::loads {
 
-AppliedLoad::AppliedLoad(Kind kind, LoadAxes axes, std::array<base::TimeLaw, 3> value, int signal)
-    : kind_(kind), axes_(axes), value_(std::move(value)), signal_(signal) {}
+AppliedLoad::AppliedLoad(Kind kind, LoadAxes axes, std::array<base::TimeLaw, 3> value,
+                         SignalFactor factor)
+    : kind_(kind), axes_(axes), value_(std::move(value)), factor_(factor) {}
 
 Action AppliedLoad::evaluate(double t, const spatial::MarkerMotion& first,
                              const spatial::MarkerMotion& /*second*/) const {
@@ -15,9 +16,7 @@ Action AppliedLoad::evaluate(double t, const spatial::MarkerMotion& first,
 }
 
 Action AppliedLoad::respond(const Sight& sight) const {
-  if (signal_ < 0) return evaluate(sight.t, sight.first, sight.second);
-  // The first of them is t.
-  return act(sight.signals[static_cast<std::size_t>(signal_) + 1] * values(sight.t), sight.first);
+  return act(factor_.value(sight) * values(sight.t), sight.first);
 }
 
 Action AppliedLoad::act(const Eigen::Vector3d& values, const spatial::MarkerMotion& first) const {
@@ -35,8 +34,8 @@ Action AppliedLoad::act(const Eigen::Vector3d& values, const spatial::MarkerMoti
 }
 
 bool AppliedLoad::is_constant() const {
-  return signal_ < 0 && std::all_of(value_.begin(), value_.end(),
-                                    [](const base::TimeLaw& law) { return law.is_constant(); });
+  return !factor_.exists() && std::all_of(value_.begin(), value_.end(),
+                                          [](const auto& law) { return law.is_constant(); });
 }
 
 }  // namespace buckens::loads

@@ -6,6 +6,7 @@
 #include "buckens/base/time_law.h"
 #include "buckens/loads/force_element.h"
 #include "buckens/loads/load_axes.h"
+#include "buckens/loads/signal_factor.h"
 
 namespace buckens::loads {
 
@@ -17,28 +18,28 @@ class AppliedLoad final : public ForceElement {
   enum class Kind { force, torque };
 
   /// @param value three laws of time [N] or [N m]
-  /// @param signal index of the signal that multiplies it; −1: none
-  AppliedLoad(Kind kind, LoadAxes axes, std::array<base::TimeLaw, 3> value, int signal = -1);
+  AppliedLoad(Kind kind, LoadAxes axes, std::array<base::TimeLaw, 3> value,
+              SignalFactor factor = SignalFactor());
 
   Action evaluate(double t, const spatial::MarkerMotion& first,
                   const spatial::MarkerMotion& second) const override;
   Action respond(const Sight& sight) const override;
-  bool uses_signals() const override { return signal_ >= 0; }
+  bool uses_signals() const override { return factor_.exists(); }
   bool is_applied() const override { return true; }
   bool is_constant() const override;
-  int num_values() const override { return signal_ < 0 ? 3 : 0; }
+  int num_values() const override { return factor_.exists() ? 0 : 3; }
   Eigen::Vector3d values(double t) const override {
     return {value_[0].value(t), value_[1].value(t), value_[2].value(t)};
   }
   bool follows() const override { return axes_ == LoadAxes::following; }
-  bool takes_values() const override { return signal_ < 0; }
+  bool takes_values() const override { return !factor_.exists(); }
   Action act(const Eigen::Vector3d& values, const spatial::MarkerMotion& first) const override;
 
  private:
   Kind kind_;
   LoadAxes axes_;
   std::array<base::TimeLaw, 3> value_;
-  int signal_;
+  SignalFactor factor_;
 };
 
 }  // namespace buckens::loads

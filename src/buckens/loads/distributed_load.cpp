@@ -6,12 +6,22 @@
 
 namespace buckens::loads {
 
-DistributedLoad::DistributedLoad(LoadAxes axes, std::array<base::TimeLaw, 3> value, double extent)
-    : axes_(axes), value_(std::move(value)), extent_(extent) {}
+DistributedLoad::DistributedLoad(LoadAxes axes, std::array<base::TimeLaw, 3> value, double extent,
+                                 SignalFactor factor)
+    : axes_(axes), value_(std::move(value)), extent_(extent), factor_(factor) {}
 
 Action DistributedLoad::evaluate(double t, const spatial::MarkerMotion& first,
                                  const spatial::MarkerMotion& /*second*/) const {
-  Eigen::Vector3d force = extent_ * values(t);
+  return push(values(t), first);
+}
+
+Action DistributedLoad::respond(const Sight& sight) const {
+  return push(factor_.value(sight) * values(sight.t), sight.first);
+}
+
+Action DistributedLoad::push(const Eigen::Vector3d& value,
+                             const spatial::MarkerMotion& first) const {
+  Eigen::Vector3d force = extent_ * value;
   if (axes_ == LoadAxes::following) force = first.R * force;
   Action action;
   action.on_first.force = force;
@@ -20,8 +30,8 @@ Action DistributedLoad::evaluate(double t, const spatial::MarkerMotion& first,
 }
 
 bool DistributedLoad::is_constant() const {
-  return std::all_of(value_.begin(), value_.end(),
-                     [](const base::TimeLaw& law) { return law.is_constant(); });
+  return !factor_.exists() && std::all_of(value_.begin(), value_.end(),
+                                          [](const auto& law) { return law.is_constant(); });
 }
 
 }  // namespace buckens::loads

@@ -43,6 +43,7 @@ struct PressureSpec {
   static constexpr const char* kDoc = "pressure on faces of a mesh; positive pushes against them";
   BodyPart on;
   base::TimeLaw value;  ///< [Pa]
+  std::string factor;   ///< name of a signal; empty: none
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -52,6 +53,7 @@ struct PressureSpec {
               .in(base::kStress)
               .required()
               .like("{table: gas.csv, unit: bar}"));
+    visit(factor_field(factor));
   }
 };
 
@@ -62,12 +64,14 @@ struct TractionSpec {
   BodyPart on;
   std::array<base::TimeLaw, 3> value;  ///< [Pa]
   LoadAxes axes = LoadAxes::fixed;
+  std::string factor;  ///< name of a signal; empty: none
 
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(part_field(on, "body and one of its named faces, face sets or interfaces", "plate/z1"));
     visit(components_field("value", value, base::kStress, "[2 kPa, 0, 0]").required());
     visit(axes_field(axes, "body"));
+    visit(factor_field(factor));
   }
 };
 
@@ -78,6 +82,7 @@ struct LineLoadSpec {
   BodyPart on;
   std::array<base::TimeLaw, 3> value;  ///< [N/m]
   LoadAxes axes = LoadAxes::fixed;
+  std::string factor;  ///< name of a signal; empty: none
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -87,6 +92,7 @@ struct LineLoadSpec {
                      "girder"));
     visit(components_field("value", value, kForcePerLength, "[0, 0, -500 N/m]").required());
     visit(axes_field(axes, "body"));
+    visit(factor_field(factor));
   }
 };
 
@@ -98,6 +104,7 @@ struct BodyForceSpec {
   std::optional<std::array<base::TimeLaw, 3>> per_mass;    ///< [m/s²]
   std::optional<std::array<base::TimeLaw, 3>> per_volume;  ///< [N/m³]
   LoadAxes axes = LoadAxes::fixed;
+  std::string factor;  ///< name of a signal; empty: none
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -107,6 +114,7 @@ struct BodyForceSpec {
     visit(components_field("per-volume", per_volume, kForcePerVolume, "[0, 5 kN/m^3, 0]")
               .otherwise("give this or `per-mass`"));
     visit(axes_field(axes, "body"));
+    visit(factor_field(factor));
   }
 };
 

@@ -3,6 +3,7 @@
 
 #include "buckens/base/time_law.h"
 #include "buckens/loads/force_element.h"
+#include "buckens/loads/signal_factor.h"
 
 namespace buckens::loads {
 
@@ -21,20 +22,25 @@ class PressureLoad final : public ForceElement {
   /// @param force_B −∫ n dA [m²], body axes
   /// @param torque_B −∫ x × n dA about the mass centre [m³], body axes
   PressureLoad(base::TimeLaw value, double area, const Eigen::Vector3d& force_B,
-               const Eigen::Vector3d& torque_B);
+               const Eigen::Vector3d& torque_B, SignalFactor factor = SignalFactor());
 
   Action evaluate(double t, const spatial::MarkerMotion& first,
                   const spatial::MarkerMotion& second) const override;
+  Action respond(const Sight& sight) const override;
+  bool uses_signals() const override { return factor_.exists(); }
   bool is_applied() const override { return true; }
-  bool is_constant() const override { return value_.is_constant(); }
-  int num_values() const override { return 1; }
+  bool is_constant() const override { return !factor_.exists() && value_.is_constant(); }
+  int num_values() const override { return factor_.exists() ? 0 : 1; }
   Eigen::Vector3d values(double t) const override { return {value_.value(t), 0.0, 0.0}; }
   bool follows() const override { return true; }
 
  private:
+  Action press(double p, const spatial::MarkerMotion& first) const;
+
   base::TimeLaw value_;
   double area_;
   Eigen::Vector3d force_B_, torque_B_;
+  SignalFactor factor_;
 };
 
 }  // namespace buckens::loads

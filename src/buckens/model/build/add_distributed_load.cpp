@@ -12,6 +12,7 @@
 #include "buckens/fem/assembly/uniform_shares.h"
 #include "buckens/loads/distributed_load.h"
 #include "buckens/loads/pressure_load.h"
+#include "buckens/model/build/find_factor.h"
 #include "buckens/model/build/load_place.h"
 
 namespace buckens::model {
@@ -146,7 +147,8 @@ void DistributedLoads::add_uniform(const LoadSpec& spec, const Place& place,
     out.region = {place.on->text, share.extent, load.extent_unit,
                   at - model_.bodies[static_cast<std::size_t>(b)].com, share.feet};
     out.unit = load.unit;
-    out.element = std::make_unique<loads::DistributedLoad>(load.axes, *load.value, share.extent);
+    out.element =
+        std::make_unique<loads::DistributedLoad>(load.axes, *load.value, share.extent, load.factor);
     model_.loads.push_back(std::move(out));
   }
 }
@@ -162,8 +164,14 @@ void DistributedLoads::add_to_frame(const LoadSpec& spec, int body, const std::s
       tables_[static_cast<std::size_t>(body)]->add_region("#load " + spec.name, std::nullopt, {});
   out.region = {text, std::abs(extent), load.extent_unit, Vector3d::Zero(), {}};
   out.unit = load.unit;
-  out.element = std::make_unique<loads::DistributedLoad>(load.axes, *load.value, extent);
+  out.element =
+      std::make_unique<loads::DistributedLoad>(load.axes, *load.value, extent, load.factor);
   model_.loads.push_back(std::move(out));
+}
+
+loads::SignalFactor DistributedLoads::factor_of(const LoadSpec& spec,
+                                                const std::string& signal) const {
+  return find_factor(model_, signal, spec.name, spec.where);
 }
 
 void DistributedLoads::add_kind(const LoadSpec& spec, const loads::PressureSpec& kind) {
@@ -185,7 +193,8 @@ void DistributedLoads::add_kind(const LoadSpec& spec, const loads::PressureSpec&
     out.region = {kind.on.text, share.extent, kArea, share.middle() - com, share.feet};
     out.unit = "Pa";
     out.element = std::make_unique<loads::PressureLoad>(kind.value, share.extent, -share.normals,
-                                                        com.cross(share.normals) - share.moments);
+                                                        com.cross(share.normals) - share.moments,
+                                                        factor_of(spec, kind.factor));
     model_.loads.push_back(std::move(out));
   }
 }
@@ -195,7 +204,8 @@ void DistributedLoads::add_kind(const LoadSpec& spec, const loads::TractionSpec&
   const LoadPlaceFinder find(spec.name, kind.on, description_.bodies[on.whole], *meshes_[on.whole]);
   LoadShares shares = shares_of(on);
   add_faces(find.faces(), shares);
-  add_uniform(spec, on, shares, {kind.axes, &kind.value, "area", kArea, "Pa"});
+  add_uniform(spec, on, shares,
+              {kind.axes, &kind.value, factor_of(spec, kind.factor), "area", kArea, "Pa"});
 }
 
 void DistributedLoads::add_kind(const LoadSpec& spec, const loads::LineLoadSpec& kind) {
@@ -205,13 +215,17 @@ void DistributedLoads::add_kind(const LoadSpec& spec, const loads::LineLoadSpec&
   for (const int line : find.lines().lines) {
     shares.add_line(line, fem::constant_quartic(1.0));
   }
-  add_uniform(spec, on, shares, {kind.axes, &kind.value, "length", kLength, "N/m"});
+  add_uniform(spec, on, shares,
+              {kind.axes, &kind.value, factor_of(spec, kind.factor), "length", kLength, "N/m"});
 }
 
 void DistributedLoads::add_kind(const LoadSpec& spec, const loads::BodyForceSpec& kind) {
   const bool is_per_mass = kind.per_mass.has_value();
-  const Uniform load{kind.axes, is_per_mass ? &*kind.per_mass : &*kind.per_volume,
-                     is_per_mass ? "mass" : "volume", is_per_mass ? kMass : kVolume,
+  const Uniform load{kind.axes,
+                     is_per_mass ? &*kind.per_mass : &*kind.per_volume,
+                     factor_of(spec, kind.factor),
+                     is_per_mass ? "mass" : "volume",
+                     is_per_mass ? kMass : kVolume,
                      is_per_mass ? "m/s^2" : "N/m^3"};
   if (is_per_mass && kind.on.part().empty()) {
     require_in_plane(spec, *load.value);
@@ -239,7 +253,8 @@ void DistributedLoads::add_kind(const LoadSpec& spec, const loads::BodyForceSpec
 
 void DistributedLoads::add_kind(const LoadSpec& spec, const loads::BaseAccelerationSpec& kind) {
   require_in_plane(spec, kind.value);
-  const Uniform load{loads::LoadAxes::fixed, &kind.value, "mass", kMass, "m/s^2"};
+  const Uniform load{
+      loads::LoadAxes::fixed, &kind.value, loads::SignalFactor(), "mass", kMass, "m/s^2"};
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     const int body = static_cast<int>(b);
     const WholeBody& whole = model_.wholes[static_cast<std::size_t>(model_.whole_of(body))];

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "buckens/loads/load_spec.h"
+#include "buckens/loads/signal_factor.h"
 #include "buckens/model/build/load_share.h"
 #include "buckens/model/build/marker_table.h"
 #include "buckens/model/spec/model_description.h"
@@ -55,11 +56,13 @@ class DistributedLoads {
   struct Uniform {
     loads::LoadAxes axes = loads::LoadAxes::fixed;
     const std::array<base::TimeLaw, 3>* value = nullptr;
+    loads::SignalFactor factor;
     const char* extent = "";  ///< what it is: "area"
     const char* extent_unit = "";
     const char* unit = "";  ///< of the value
   };
 
+  loads::SignalFactor factor_of(const loads::LoadSpec& spec, const std::string& signal) const;
   Place place(const loads::LoadSpec& spec, const loads::BodyPart& on) const;
   /// @throws InputError if the body is rigid
   Place place_on_mesh(const loads::LoadSpec& spec, const loads::BodyPart& on) const;

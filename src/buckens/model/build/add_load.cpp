@@ -21,6 +21,7 @@
 #include "buckens/model/build/add_contact.h"
 #include "buckens/model/build/add_contacts.h"
 #include "buckens/model/build/add_gear_teeth.h"
+#include "buckens/model/build/find_factor.h"
 
 namespace buckens::model {
 
@@ -124,17 +125,7 @@ class LoadBuilder {
       require_in_plane(kind.value, R_WA, moment, load, where);
     }
     load.element = std::make_unique<loads::AppliedLoad>(
-        what, kind.axes, kind.value, signal_index(kind.factor, load.name, where));
-  }
-
-  /// Place of a signal among those of the model.
-  int signal_index(const std::string& name, const std::string& load, const SourceLocation& where) {
-    if (name.empty()) return -1;
-    const std::vector<Signal>& all = find_.model().signals.all;
-    const auto found = std::find_if(all.begin(), all.end(),
-                                    [&](const Signal& signal) { return signal.name == name; });
-    if (found != all.end()) return static_cast<int>(found - all.begin());
-    throw ModelError(where, fmt::format("load \"{}\": there is no signal \"{}\"", load, name));
+        what, kind.axes, kind.value, find_factor(find_.model(), kind.factor, load.name, where));
   }
 
   void add_spring(const loads::SpringDamperSpec& kind, Load& load, const SourceLocation& where) {
