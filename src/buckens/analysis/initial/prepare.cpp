@@ -21,6 +21,7 @@
 #include "buckens/dynamics/row_memory.h"
 #include "buckens/dynamics/signals.h"
 #include "buckens/dynamics/travel.h"
+#include "buckens/loads/contact_friction.h"
 #include "buckens/loads/rigid_law.h"
 
 namespace buckens::analysis {
@@ -107,8 +108,16 @@ int touched_end(const model::Model& model, const model::Load& load, double value
   return touches ? contact.regime : 0;
 }
 
+/// Whether rows of friction along its surface follow a row across it.
+bool is_rough(const model::Model& model, std::size_t load) {
+  return load + 1 < model.loads.size() && dynamic_cast<const loads::ContactFriction*>(
+                                              model.loads[load + 1].element.get()) != nullptr;
+}
+
 /// Closes the rigid rows that press in the equilibrium from which the motion starts, and those that
-/// touch, unless it starts with a speed there. What would pull lets go as the rows settle.
+/// touch, unless it starts with a speed there. What would pull lets go as the rows settle. Where
+/// there is friction, what touches is left to the first step: friction that slides from the start
+/// has no direction yet.
 void close_rows(const model::Model& model, const RestStands& at_rest,
                 const std::vector<dynamics::BodyMotion>& motions, model::RowMemory& memory) {
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
@@ -118,7 +127,9 @@ void close_rows(const model::Model& model, const RestStands& at_rest,
         model, static_cast<std::size_t>(load.coordinate), &memory, motions);
     if (std::abs(motion.rate) > kStandsStill * model.length) continue;
     const bool presses = !at_rest.empty() && at_rest[k].regime != 0;
-    const int regime = presses ? at_rest[k].regime : touched_end(model, load, motion.value);
+    const int regime = presses              ? at_rest[k].regime
+                       : is_rough(model, k) ? 0
+                                            : touched_end(model, load, motion.value);
     if (regime == 0) continue;
     memory.laws[load.first_state] = regime;
     memory.laws[load.first_state + 1] = presses ? at_rest[k].force : 0.0;
