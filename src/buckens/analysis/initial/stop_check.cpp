@@ -34,8 +34,7 @@ void refuse_beyond_stops(const model::Model& model, const model::State& state) {
     }
     throw ModelError(fmt::format(
         "load \"{}\": {} at {:.6g} {}, {:.3g} beyond the end of its free way; a "
-        "rigid "
-        "stop holds, but does not push back; start within the stops or from the equilibrium "
+        "rigid stop holds, but does not push back; start within the stops or from the equilibrium "
         "(`start: static`), or give this one a `stiffness`",
         load.name, load.joint >= 0 ? "its joint stands" : "its markers stand", value,
         is_angle ? "rad" : "m", -contact.gap));
