@@ -181,8 +181,9 @@ def test_a_killed_process_ends_the_run(buckens, tmp_path, rank):
                                    stdout=told, stderr=told)
         try:
             deadline = time.monotonic() + 120
-            csv = tmp_path / "out" / "sensors.csv"
-            while not csv.exists() or len(csv.read_text().splitlines()) < 100:
+            csv, checkpoint = tmp_path / "out" / "sensors.csv", tmp_path / "out" / "checkpoint.h5"
+            # A quick machine has a hundred records before the first checkpoint is due.
+            while not csv.exists() or len(csv.read_text().splitlines()) < 100 or not checkpoint.exists():
                 assert time.monotonic() < deadline and process.poll() is None, (tmp_path / "told").read_text()
                 time.sleep(0.1)
             os.kill(started(process, rank), signal.SIGKILL)
