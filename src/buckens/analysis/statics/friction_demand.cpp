@@ -81,7 +81,8 @@ std::vector<FrictionDemand> friction_demands(const model::Model& model,
     const double force = std::abs(stands[k].force);
     if (row.kind == RestRow::Kind::along) {
       const bool is_rigid = row.across >= 0;
-      const Place place{row.across, is_rigid ? 0 : row.load, is_rigid ? 0 : row.part / 3};
+      const Place place{row.across, is_rigid ? 0 : row.load,
+                        is_rigid ? 0 : row.part / RestRow::kOfSpot};
       squares[place] += force * force;
       if (!is_rigid) demand.most = most_of(model, row.load, motions, lambda, state);
       continue;

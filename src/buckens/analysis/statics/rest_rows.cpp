@@ -34,9 +34,6 @@ const loads::RigidStop& stop_at(const model::Model& model, const RestRow& row) {
   return *stop_of(model.loads[row.load]);
 }
 
-// Soft rows of each spot of an elastic contact with friction: across, then along.
-constexpr int kRowsOfSpot = 3;
-
 /// An elastic contact with friction, else null.
 const loads::Contact* rough_contact(const loads::ForceElement& element) {
   const auto* contact = dynamic_cast<const loads::Contact*>(&element);
@@ -102,7 +99,7 @@ void RestRows::add_friction(const model::State& state, std::size_t k) {
   } else if (rough_contact(*element) != nullptr) {
     row.kind = Kind::along;
     for (row.part = 0; row.part < element->num_soft_rows(); ++row.part) {
-      if (row.part % kRowsOfSpot != 0) rows_.push_back(row);
+      if (row.part % RestRow::kOfSpot != 0) rows_.push_back(row);
     }
   } else if (dynamic_cast<const loads::BallFriction*>(element) != nullptr) {
     row.is_angle = true;
@@ -134,7 +131,7 @@ void RestRows::evaluate(const std::vector<dynamics::BodyMotion>& motions, double
       soft.clear();
       load.element->append_tangent(sight, soft);
       J = soft[static_cast<std::size_t>(row.part)].J;
-      const auto spot = static_cast<std::size_t>(row.part - row.part % kRowsOfSpot);
+      const auto spot = static_cast<std::size_t>(row.part - row.part % RestRow::kOfSpot);
       out.presses[k] = soft[spot].stiffness > 0.0 ? 1 : 0;
     }
     out.rows.push_back(rest_row_of(model_, load, ends, J));

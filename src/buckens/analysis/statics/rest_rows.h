@@ -18,6 +18,9 @@ struct RestRow {
     held,       ///< frozen friction in a joint, a brake
     along       ///< frozen friction of a contact along its surface, while it presses
   };
+  /// Soft rows of each spot of an elastic contact with friction: across, then along.
+  static constexpr int kOfSpot = 3;
+
   Kind kind = Kind::one_sided;
   std::size_t load = 0;   ///< index into Model::loads
   int part = 0;           ///< which of the soft rows of a law with several
