@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Cables over pulleys: Atwood's machine, tackles, capstans, closed belts, hoists."""
 
+import json
 import math
 import os
 import pathlib
@@ -153,6 +154,75 @@ output: {every: 2 ms, sensors: {a: {joint-coordinate: a}, b: {joint-coordinate: 
             # The half wraps of the belt share its spans' stiffness alike, the cable's do not stretch: both are this stiff.
             assert cable[name] == pytest.approx(belt[name], rel=1e-3, abs=1e-6), name
         assert cable["b.value"][-1] / cable["a.value"][-1] == pytest.approx(-0.5 if crossed else 0.5, rel=1e-3)
+
+
+def test_a_pulley_behind_another_is_damped_by_its_rope(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text("""
+buckens: 1
+planar: xy
+bodies:
+  block: {rigid: {mass: 2, inertia: [0, 0, 0.01]}, at: {position: [0, -1, 0]}}
+joints:
+  guide: {prismatic: {between: [ground, block], axis: [0, 1, 0]}}
+loads:
+  rope:
+    cable:
+      ends: [{ground: [-0.4, 0, 0]}, {ground: [0.1, 0, 0]}]
+      pulleys: [{on: {ground: [-0.15, 0.2, 0]}, radius: 50 mm, side: right}, {on: block, radius: 100 mm}]
+      stiffness: 1e4
+      damping-time: 1 ms
+      pretension: 1 mN
+simulation: {duration: 1, step: 1e-3}
+""")
+    mode, = buckens("modes", "model.yaml", "--system", "--json").must(0).json["analyses"][0]["modes"]
+    # Nothing slips: both spans beside the block, 1.2 m and 1 m long and upright, resist it.
+    omega = math.sqrt(1e4 * (1 / 1.2 + 1) / 2)
+    # Without its tension, 1e-7 of the stiffness, it would be slack.
+    assert mode["frequency"] == pytest.approx(omega / (2 * math.pi), rel=1e-6)
+    assert mode["damping_ratio"] == pytest.approx(1e-3 * omega / 2, rel=1e-6)
+
+
+TO_AND_FRO = """
+buckens: 1
+planar: xy
+gravity: [0, -9.81, 0]
+materials: {plastic: {E: 1 GPa, nu: 0.3, rho: 1400, damping: {stiffness: 1e-4 s}}}
+bodies:
+  bracket: {beam: {to: [0.5, 0, 0], elements: 3, section: {circle: {diameter: 20 mm}}, material: plastic}}
+  wheel: {rigid: {mass: 1, inertia: [0, 0, 0.002]}}
+  fan: {rigid: {mass: 0.5, inertia: [0, 0, 0.003]}, at: {position: [0.5, 0, 0]}}
+  light: {rigid: {mass: 0.4, inertia: [0, 0, 1e-3]}, at: {position: [0.42, -0.4, 0]}}
+  heavy: {rigid: {mass: 1, inertia: [0, 0, 1e-3]}, at: {position: [0.58, -0.5, 0]}}
+joints:
+  root: {fixed: {between: [ground, bracket/start]}}
+  axle: {revolute: {between: [ground, wheel]}}
+  shaft: {revolute: {between: [bracket/end, fan]}}
+loads:
+  belt: {cable: {pulleys: [{on: wheel, radius: 0.05}, {on: fan, radius: 0.03}], stiffness: 2e4, damping-time: 1 ms, pretension: 20, friction: 0.3}}
+  rope: {cable: {ends: [light, heavy], pulleys: [{on: fan, radius: 0.08, side: right}], stiffness: 2e4, damping-time: 0.5 ms, pretension: 6, friction: 0.2}}
+  twist: {torque: {on: wheel, value: [0, 0, "0.4*sin(60*t)"]}}
+simulation: {duration: 0.1, step: 0.5 ms, newton-tolerance: TOLERANCE}
+output: {every: 1 ms, sensors: {rope: {cable: rope}, belt: {cable: belt}, a: {position: light}}}
+"""
+
+
+def test_tolerances_do_not_change_ropes_that_slip_to_and_fro(buckens, tmp_path):
+    """Where a span begins to slip anew, its pulley changes between two regimes by rounding alone."""
+    found = []
+    for tolerance in ("1e-8", "1e-10", "1e-13", "1e-15"):
+        (tmp_path / "model.yaml").write_text(TO_AND_FRO.replace("TOLERANCE", tolerance))
+        buckens("run", "model.yaml", "-o", "out-" + tolerance, "--quiet").must(0)
+        summary = json.loads((tmp_path / ("out-" + tolerance) / "summary.json").read_text())
+        assert summary["step_control"]["failed"] == 0
+        assert summary["newton_iterations"]["max"] <= 10
+        found.append(numpy.genfromtxt(
+            tmp_path / ("out-" + tolerance) / "sensors.csv", delimiter=",", names=True, comments=None))
+    slip = numpy.diff(found[0]["ropeslip1_m"])
+    assert (slip != 0).any() and (slip == 0).any()  # it slips and sticks
+    for other in found[:-1]:
+        for name in ("ax_m", "ay_m", "ropeslip1_m", "beltslip1_m"):
+            # A share of 1e-8 of what each of 200 steps moves, some 1 mm.
+            assert other[name] == pytest.approx(found[-1][name], abs=200 * 1e-8 * 1e-3)
 
 
 def test_a_hoist_winds_its_rope_up(sensors):

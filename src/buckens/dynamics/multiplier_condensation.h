@@ -19,7 +19,7 @@ struct BodyCompliance {
   const linalg::Matrix* interface = nullptr;
 };
 
-/// Growth of the force of a soft row with a multiplier.
+/// Growth of the force of a soft row with a multiplier, which may be the force of a soft row, too.
 struct MultiplierSlope {
   int soft_row = 0, row = 0;  ///< of the condensed system
   double value = 0;

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
@@ -36,8 +35,6 @@ double within_one_turn(double angle) { return std::remainder(angle, kTurn); }
 double turned_about(const Vector3d& axis, const Vector3d& from, const Vector3d& to) {
   return std::atan2(axis.dot(from.cross(to)), from.dot(to));
 }
-
-using Square = CapstanSlip::Square;
 
 }  // namespace
 
@@ -247,62 +244,38 @@ void Cable::add_to_others(const Sight& sight, std::span<spatial::Wrench> wrenche
   }
 }
 
-namespace {
-
-/// Rows along which a cable resists, and how much: its spans, or where something slips what these
-/// do together.
-struct Resistance {
-  Square directions;  // one per column: of the elongations of spans
-  CapstanSlip::Column stiffness;
-
-  explicit Resistance(const CapstanSlip& slip) {
-    const Square tangent = slip.tangent();
-    if (!slip.has_slipped()) {
-      directions = Square::Identity(tangent.rows(), tangent.rows());
-      stiffness = tangent.diagonal();
-      return;
-    }
-    const Eigen::SelfAdjointEigenSolver<Square> own(0.5 * (tangent + tangent.transpose()));
-    directions = own.eigenvectors();
-    stiffness = own.eigenvalues().cwiseMax(0.0);
-  }
-};
-
-}  // namespace
-
 void Cable::append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const {
   const Stand s = look(sight);
   const std::size_t nodes = data_.nodes.size();
-  const Resistance own(s.slip);
-  for (std::size_t n = 0; n < num_spans(); ++n) {
+  for (std::size_t j = 0; j < num_spans(); ++j) {
     SoftRow row;
-    for (std::size_t j = 0; j < num_spans(); ++j) {
-      const double share = own.directions(static_cast<int>(j), static_cast<int>(n));
-      const std::size_t next = (j + 1) % nodes;
-      if (j == 0) row.J.segment<6>(0) += share * s.spans[j].on_from;
-      if (j == 1) row.J.segment<6>(6) += share * s.spans[j].on_from;
-      if (next == 0) row.J.segment<6>(0) += share * s.spans[j].on_to;
-      if (next == 1) row.J.segment<6>(6) += share * s.spans[j].on_to;
-    }
-    row.stiffness = own.stiffness[static_cast<int>(n)];
+    const std::size_t next = (j + 1) % nodes;
+    if (j == 0) row.J.segment<6>(0) += s.spans[j].on_from;
+    if (j == 1) row.J.segment<6>(6) += s.spans[j].on_from;
+    if (next == 0) row.J.segment<6>(0) += s.spans[j].on_to;
+    if (next == 1) row.J.segment<6>(6) += s.spans[j].on_to;
+    row.stiffness = s.slip.taut_stiffness(j);
     row.damping = data_.damping_time * row.stiffness;
     rows.push_back(row);
   }
 }
 
+bool Cable::mix_rows(const Sight& sight, RowMix& mix) const {
+  if (!may_slip()) return false;
+  const Stand s = look(sight);
+  if (!s.slip.has_slipped()) return false;
+  mix = s.slip.mix();
+  return true;
+}
+
 void Cable::append_others_of_rows(const Sight& sight, std::vector<TwistRow>& rows) const {
   const Stand s = look(sight);
   const std::size_t nodes = data_.nodes.size();
-  const Resistance own(s.slip);
-  for (std::size_t n = 0; n < num_spans(); ++n) {
-    const std::size_t first = rows.size();
+  for (std::size_t j = 0; j < num_spans(); ++j) {
+    const std::size_t first = rows.size(), next = (j + 1) % nodes;
     rows.resize(first + nodes - 2, TwistRow::Zero());
-    for (std::size_t j = 0; j < num_spans(); ++j) {
-      const double share = own.directions(static_cast<int>(j), static_cast<int>(n));
-      const std::size_t next = (j + 1) % nodes;
-      if (j >= 2) rows[first + j - 2] += share * s.spans[j].on_from;
-      if (next >= 2) rows[first + next - 2] += share * s.spans[j].on_to;
-    }
+    if (j >= 2) rows[first + j - 2] += s.spans[j].on_from;
+    if (next >= 2) rows[first + next - 2] += s.spans[j].on_to;
   }
 }
 

@@ -56,6 +56,7 @@ class Cable final : public ForceElement {
   int num_soft_rows() const override { return static_cast<int>(num_spans()); }
   void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const override;
   void append_others_of_rows(const Sight& sight, std::vector<TwistRow>& rows) const override;
+  bool mix_rows(const Sight& sight, RowMix& mix) const override;
   int num_states() const override;
   void start_states(const Sight& sight, double* states) const override;
   void find_states(const Sight& sight, double* states) const override;

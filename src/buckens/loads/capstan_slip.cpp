@@ -110,8 +110,8 @@ CapstanSlip::Square CapstanSlip::slips_by_elongations(const std::array<int, kMos
     const double m = factor_[pulley];
     // Derivative of what vanishes, T_b − m T_a or m T_b − T_a, by both tensions.
     const int way = directions[pulley];
-    const double of_a = (way > 0 ? -m : -1.0) * slack_stiffness(a);
-    const double of_b = (way > 0 ? 1.0 : m) * slack_stiffness(b);
+    const double of_a = (way > 0 ? -m : -1.0) * taut_stiffness(a);
+    const double of_b = (way > 0 ? 1.0 : m) * taut_stiffness(b);
     if (way == 0 || (of_a == 0.0 && of_b == 0.0)) continue;
     A.row(i).setZero();
     for (Eigen::Index k = 0; k < n; ++k) {
@@ -129,11 +129,10 @@ CapstanSlip::Square CapstanSlip::slips_by_elongations(const std::array<int, kMos
   return right;
 }
 
-CapstanSlip::Square CapstanSlip::tangent() const {
+RowMix CapstanSlip::mix() const {
   const auto s = static_cast<Eigen::Index>(spans_);
-  Square K = Square::Zero(s, s);
-  for (Eigen::Index j = 0; j < s; ++j) K(j, j) = slack_stiffness(static_cast<std::size_t>(j));
-  if (!has_slipped()) return K;
+  RowMix mix = RowMix::Identity(s, s);
+  if (!has_slipped()) return mix;
   std::array<int, kMost> directions{};
   for (std::size_t i = 0; i < pulleys_; ++i) {
     directions[i] = slip_[i] > 0.0 ? 1 : slip_[i] < 0.0 ? -1 : 0;
@@ -141,15 +140,20 @@ CapstanSlip::Square CapstanSlip::tangent() const {
   Square A;
   const Square right = slips_by_elongations(directions, A);
   const Square slips = A.fullPivLu().solve(right);
-  Square elongations = Square::Identity(s, s);
   for (std::size_t i = 0; i < pulleys_; ++i) {
     if (directions[i] == 0) continue;
-    elongations.row(static_cast<Eigen::Index>(before(i))) +=
-        slips.row(static_cast<Eigen::Index>(i));
-    elongations.row(static_cast<Eigen::Index>(behind(i))) -=
-        slips.row(static_cast<Eigen::Index>(i));
+    mix.row(static_cast<Eigen::Index>(before(i))) += slips.row(static_cast<Eigen::Index>(i));
+    mix.row(static_cast<Eigen::Index>(behind(i))) -= slips.row(static_cast<Eigen::Index>(i));
   }
-  return K * elongations;
+  // From elongations to forces.
+  for (Eigen::Index i = 0; i < s; ++i) {
+    for (Eigen::Index j = 0; j < s; ++j) {
+      const double k_i = taut_stiffness(static_cast<std::size_t>(i));
+      const double k_j = taut_stiffness(static_cast<std::size_t>(j));
+      if (i != j) mix(i, j) = k_j > 0.0 ? mix(i, j) * k_i / k_j : 0.0;
+    }
+  }
+  return mix;
 }
 
 }  // namespace buckens::loads

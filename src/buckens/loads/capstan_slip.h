@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include <Eigen/Dense>
+#include "buckens/loads/row_mix.h"
 
 namespace buckens::loads {
 
@@ -18,8 +18,7 @@ namespace buckens::loads {
 class CapstanSlip {
  public:
   static constexpr int kMost = 16;
-  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
-  using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMost, 1>;
+  using Square = RowMix;
   using Values = std::array<double, kMost>;
 
   void reset(std::size_t spans, std::size_t pulleys, bool is_closed);
@@ -37,6 +36,8 @@ class CapstanSlip {
   double tension(std::size_t span) const;
   /// Its elastic share, negative: slack [N].
   double elastic(std::size_t span) const { return elastic_[span]; }
+  /// By which its elongation would stretch it if nothing slipped [N/m]; zero while it is slack.
+  double taut_stiffness(std::size_t span) const { return tension(span) > 0.0 ? k_[span] : 0.0; }
   /// Elongation by slip [m].
   double lengthened(std::size_t span) const { return of_spans(slip_, span); }
   /// What slips over all pulleys give to one span. @param slips one per pulley
@@ -46,15 +47,14 @@ class CapstanSlip {
   bool has_slipped() const;
   int regime() const;
 
-  /// Derivatives of the tensions by the elongations without slip.
-  Square tangent() const;
+  /// How tensions follow those that spans would have if nothing slipped from here on.
+  RowMix mix() const;
 
  private:
   std::size_t before(std::size_t pulley) const {
     return is_closed_ ? (pulley + spans_ - 1) % spans_ : pulley;
   }
   std::size_t behind(std::size_t pulley) const { return is_closed_ ? pulley : pulley + 1; }
-  double slack_stiffness(std::size_t span) const { return tension(span) > 0.0 ? k_[span] : 0.0; }
   void add(std::size_t pulley, double slip);
   /// Equations of the pulleys that slip, directions given: slips by elongations.
   Square slips_by_elongations(const std::array<int, kMost>& directions, Square& equations) const;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "buckens/loads/row_mix.h"
 #include "buckens/spatial/marker_motion.h"
 
 namespace buckens::loads {
@@ -117,6 +118,8 @@ class ForceElement {
   /// The shares of these markers in the rows of append_tangent(), row by row.
   virtual void append_others_of_rows(const Sight& /*sight*/,
                                      std::vector<TwistRow>& /*rows*/) const {}
+  /// How these rows act together. @return false if each acts alone; `mix` is not written then
+  virtual bool mix_rows(const Sight& /*sight*/, RowMix& /*mix*/) const { return false; }
 
   /// Whether its soft row is a rigid one. Its first two states are RowStand::regime and force.
   virtual bool is_rigid() const { return false; }

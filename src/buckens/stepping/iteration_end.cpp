@@ -36,6 +36,10 @@ bool IterationEnd::is_settled(const Change& change, const Change& before, double
   return before.size > 0.0 && change.size > kSlow * before.size && change.size <= rounding;
 }
 
+bool IterationEnd::is_rounding(const Change& change) const {
+  return change.size <= kRounding * rounding_length_;
+}
+
 double IterationEnd::negligible(double motion) const {
   // If left in every step, rounding of positions accumulates in rates, which are 1/h of them: this
   // matters when the coupling is iterated to convergence.

@@ -34,6 +34,8 @@ class IterationEnd {
   /// @param before the change before it, of size 0 if there is none
   /// @param pivots ratio of the smallest pivot to its diagonal entry; 0: no rows
   bool is_settled(const Change& change, const Change& before, double pivots);
+  /// Whether a change is within the rounding of positions, whatever the tolerance.
+  bool is_rounding(const Change& change) const;
   /// What residuals may leave to be moved, so that no iteration is needed to tell [m].
   /// @param motion of the step [m]
   double negligible(double motion) const;

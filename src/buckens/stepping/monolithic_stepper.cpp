@@ -373,18 +373,20 @@ void MonolithicStepper::tangent(std::vector<Triplet>& out) const {
       out.emplace_back(position, e.correction_column, e.value);
     }
   }
-  for (std::size_t k = 0; k < soft_.rows.size(); ++k) {
-    const double elastic = scheme_.force * scheme_.weight * soft_.stiffness[k];
-    const double both = elastic + scheme_.force * scheme_.mean_rate * soft_.damping[k];
-    const std::vector<Entry> row = entries(soft_.rows[k]);
-    for (const Entry& i : row) {
-      for (const Entry& j : row) {
+  std::vector<std::vector<Entry>> soft;
+  for (const dynamics::SystemRow& row : soft_.rows) soft.push_back(entries(row));
+  dynamics::for_shares(soft_, [&](int on, int by, double share) {
+    const auto k = static_cast<std::size_t>(by);
+    const double elastic = share * scheme_.force * scheme_.weight * soft_.stiffness[k];
+    const double both = elastic + share * scheme_.force * scheme_.mean_rate * soft_.damping[k];
+    for (const Entry& i : soft[static_cast<std::size_t>(on)]) {
+      for (const Entry& j : soft[k]) {
         out.emplace_back(i.column, j.column, both * i.value * j.value);
         if (scheme_.weight != 1.0) continue;
         out.emplace_back(i.column, j.correction_column, elastic * i.value * j.value);
       }
     }
-  }
+  });
 }
 
 void MonolithicStepper::body_residual(std::size_t b, Vector& r) const {

@@ -418,13 +418,17 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
                          StepReport& report) {
   Change before;
   int since_moved = 0;  // iterations since a rigid row moved last
+  int flickers = 0;     // changes of regimes in a row that moved nothing
   for (;;) {
     ++since_moved;
     evaluate(bodies, t, lambda, slopes_are_old_ ? &slopes_of_joints_ : nullptr);
     record_residuals(residuals_, report);
     bool are_formed = regimes_hold(bodies, t, report);
+    // A law at the border of two regimes may change to and fro by rounding for ever.
+    flickers = !are_formed && ending_.is_rounding(change) ? flickers + 1 : 0;
     const bool is_settled =
-        are_formed && ending_.is_settled(change, before, condensation_->pivot_ratio());
+        flickers > 1 ||
+        (are_formed && ending_.is_settled(change, before, condensation_->pivot_ratio()));
     if (is_settled || is_restless(since_moved)) {
       const bool has_moved = is_settled ? move_rigid_rows(t, report) : decide_cones(t, report);
       if (is_settled && !has_moved) break;

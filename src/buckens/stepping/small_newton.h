@@ -113,6 +113,8 @@ class SmallNewton {
   int place_of(const dynamics::ReactionSlope& slope) const;
   /// Passes on how friction grows with multipliers, after the soft rows.
   void set_slopes();
+  /// And how soft rows of one element act together.
+  void add_slopes_of_mixes();
   /// Passes them on once more, as they are after the first iteration: slopes by multipliers of the
   /// last step are wrong by the angle by which reactions have turned since. @return whether it did
   bool renew_slopes();

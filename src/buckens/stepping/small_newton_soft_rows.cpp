@@ -11,6 +11,9 @@ namespace buckens::stepping {
 namespace {
 
 constexpr int kMostMoves = 20;  // of rigid rows from one part of their set to another in a step
+// Share of its own force that a row of a mix keeps in the tangent. The matrix of multipliers loses
+// as many digits, and the iteration gains as many in each round.
+constexpr double kOwnShare = 1e-4;
 
 }  // namespace
 
@@ -73,7 +76,27 @@ void SmallNewton::set_slopes() {
     sliding = slope.soft;
     condensation_->set_row(in_use + slope.soft, dynamics::SystemRow{}, soft_.rows[soft]);
   }
+  add_slopes_of_mixes();
   condensation_->set_slopes(slopes_in_use_);
+}
+
+void SmallNewton::add_slopes_of_mixes() {
+  const int in_use = static_cast<int>(rows_in_use_.size());
+  for (std::size_t m = 0; m < soft_.mixes.size(); ++m) {
+    // f = R f̂ as f = f̂ + W f, with W = 1 − R⁻¹ of an R that is not quite singular.
+    loads::RowMix R = soft_.mixes[m];
+    R.diagonal().array() += kOwnShare;
+    const loads::RowMix inverse = R.inverse();
+    const int first = soft_.first_of_mix[m], count = static_cast<int>(R.rows());
+    for (int i = 0; i < count; ++i) {
+      if (soft_.stiffness[static_cast<std::size_t>(first + i)] == 0.0) continue;
+      for (int j = 0; j < count; ++j) {
+        const double value = (i == j ? 1.0 : 0.0) - inverse(i, j);
+        if (value == 0.0) continue;
+        slopes_in_use_.push_back({in_use + first + i, in_use + first + j, value});
+      }
+    }
+  }
 }
 
 bool SmallNewton::renew_slopes() {
@@ -158,6 +181,8 @@ bool SmallNewton::regimes_hold(std::vector<BodyStep>& bodies, double t, const St
   std::swap(soft_.damping, soft_now_.damping);
   std::swap(soft_.regimes, soft_now_.regimes);
   std::swap(soft_.is_closed, soft_now_.is_closed);
+  std::swap(soft_.mixes, soft_now_.mixes);
+  std::swap(soft_.first_of_mix, soft_now_.first_of_mix);
   held_.hold_reversed(soft_now_.regimes, at_evaluation(), scheme_.evaluation_time(t), around_,
                       soft_);
   if (!form_tangent(bodies, soft_.is_closed != soft_now_.is_closed)) {

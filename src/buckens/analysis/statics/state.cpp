@@ -78,7 +78,7 @@ double spring_rounding(const model::Model& model,
   double out = 0.0;
   for (std::size_t k = 0; k < soft.rows.size(); ++k) {
     bool is_displacement = false;
-    for (const dynamics::BodyRow* part : {&soft.rows[k].first, &soft.rows[k].second}) {
+    for (const dynamics::BodyRow* part : soft.rows[k].parts()) {
       if (part->body == model::kGround) continue;
       is_displacement = is_displacement || part->frame.tail<3>().cwiseAbs().maxCoeff() > 0.0;
     }

@@ -125,7 +125,7 @@ double damping_ratio(const model::Model& model, const model::State& position,
   dynamics::evaluate_soft_rows(model, at_rest(model, position), soft);
   for (std::size_t k = 0; k < soft.rows.size(); ++k) {
     double rate = 0.0;
-    for (const dynamics::BodyRow* part : {&soft.rows[k].first, &soft.rows[k].second}) {
+    for (const dynamics::BodyRow* part : soft.rows[k].parts()) {
       if (part->body == model::kGround) continue;
       const auto b = static_cast<std::size_t>(part->body);
       rate += part->change(vibration.shape[b].frame, y[b]);

@@ -116,7 +116,7 @@ void AtRest::add_springs() {
   std::vector<Triplet> entries;
   for (std::size_t k = 0; k < soft.rows.size(); ++k) {
     std::vector<std::pair<int, double>> values;
-    for (const BodyRow* part : {&soft.rows[k].first, &soft.rows[k].second}) {
+    for (const BodyRow* part : soft.rows[k].parts()) {
       if (part->body == model::kGround) continue;
       const Vector own = loads_.gradient(*part);
       const int first = out_.bodies[static_cast<std::size_t>(part->body)].first;
