@@ -21,7 +21,6 @@
 #include "buckens/dynamics/row_memory.h"
 #include "buckens/dynamics/signals.h"
 #include "buckens/dynamics/travel.h"
-#include "buckens/loads/contact_friction.h"
 #include "buckens/loads/rigid_law.h"
 
 namespace buckens::analysis {
@@ -107,16 +106,8 @@ int touched_end(const model::Load& load, double value, double size) {
   return std::abs(contact.gap) <= kTouches * size ? contact.regime : 0;
 }
 
-/// Whether rows of friction along its surface follow a row across it.
-bool is_rough(const model::Model& model, std::size_t load) {
-  return load + 1 < model.loads.size() && dynamic_cast<const loads::ContactFriction*>(
-                                              model.loads[load + 1].element.get()) != nullptr;
-}
-
 /// Closes the rigid rows that press in the equilibrium from which the motion starts, and those that
-/// touch, unless it starts with a speed there. What would pull lets go as the rows settle. Where
-/// there is friction, what touches is left to the first step: closed here, cylinders that slide
-/// from the start were ahead of their exact motion by a speed of some 3e-5 m/s (why is not known).
+/// touch, unless it starts with a speed there. What would pull lets go as the rows settle.
 void close_rows(const model::Model& model, const RestStands& at_rest,
                 const std::vector<dynamics::BodyMotion>& motions, model::RowMemory& memory) {
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
@@ -127,9 +118,7 @@ void close_rows(const model::Model& model, const RestStands& at_rest,
     const auto motion = dynamics::coordinate_motion(model, coordinate, &memory, motions);
     if (std::abs(motion.rate) > kStandsStill * size) continue;
     const bool presses = !at_rest.empty() && at_rest[k].regime != 0;
-    const int regime = presses              ? at_rest[k].regime
-                       : is_rough(model, k) ? 0
-                                            : touched_end(load, motion.value, size);
+    const int regime = presses ? at_rest[k].regime : touched_end(load, motion.value, size);
     if (regime == 0) continue;
     memory.laws[load.first_state] = regime;
     memory.laws[load.first_state + 1] = presses ? at_rest[k].force : 0.0;

@@ -18,6 +18,8 @@ namespace buckens::analysis {
 namespace {
 
 constexpr int kMostRowRounds = 450;
+// Within this time bodies do not move, and what begins to slide has a direction [s].
+constexpr double kInstant = 1e-6;
 // Changes of accelerations by this share of the largest one, and those that may be rounding where
 // they do not fall any more.
 constexpr double kSameMotion = 1e-13;
@@ -158,6 +160,23 @@ bool settle_in_rounds(const model::Model& model, const dynamics::MassMetric& met
   return false;
 }
 
+/// Whether friction slides from rest somewhere, against an acceleration that is not yet known when
+/// the forces that hold it are found to be too large.
+bool begins_to_slide(const model::Model& model, const model::State& state) {
+  const auto motions = dynamics::motions_of(model, state);
+  for (const model::Load& load : model.loads) {
+    const auto* law = dynamic_cast<const loads::ContactFriction*>(load.element.get());
+    if (law == nullptr || state.memory.laws[load.first_state] != 2.0) continue;
+    const auto first = dynamics::evaluate_marker(model, load.first, motions);
+    const auto second = dynamics::evaluate_marker(model, load.second, motions);
+    const spatial::TouchPlace place = law->touch().look(first.motion, second.motion);
+    const Eigen::Vector3d v = place.velocity(first.motion, second.motion);
+    const double speed = (v - place.normal.dot(v) * place.normal).norm();
+    if (!(speed > law->data().at_rest)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& metric,
@@ -167,9 +186,12 @@ void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& me
     if (settle_in_rounds(model, metric, rows_in_use, nullptr, state, unrest)) return;
   } else {
     const model::State start = state;
-    if (settle_in_rounds(model, metric, rows_in_use, nullptr, state, unrest)) return;
-    state = start;
     RoughContacts contacts(model, metric, rows_in_use);
+    if (settle_in_rounds(model, metric, rows_in_use, nullptr, state, unrest)) {
+      if (begins_to_slide(model, state)) contacts.hold_over(kInstant, state);
+      return;
+    }
+    state = start;
     if (settle_in_rounds(model, metric, rows_in_use, &contacts, state, unrest)) return;
     if (start.last_step > 0.0) {
       state = start;
