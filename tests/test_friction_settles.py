@@ -76,3 +76,29 @@ def test_a_four_bar_with_friction_runs_without_shortened_steps(summary, angle):
     run = summary(FOUR_BAR.replace("ANGLE", angle), "run")
     assert run["step_control"]["failed"] == 0
     assert [size["step"] for size in run["step_control"]["sizes"]] == [1e-4]
+
+
+BALLS = """buckens: 1
+gravity: [0, 0, -9.81]
+bodies:
+  arm: {rigid: {mass: 1, inertia: [2e-3, 2e-3, 1e-4]}, at: {position: [0.1, 0, 0]}, markers: {o: {position: [-0.1, 0, 0]}, e: {position: [0.1, 0, 0]}}}
+  bob: {rigid: {mass: 0.5, inertia: [1e-4, 2e-4, 2e-4]}, at: {position: [0.25, 0, 0]}, markers: {o: {position: [-0.05, 0, 0]}}}
+joints:
+  hang: {spherical: {between: [ground, arm/o]}}
+  link: {spherical: {between: [arm/e, bob/o]}}
+loads:
+  a: {ball-friction: {joint: hang, static: 0.2, radius: 10 mm}}
+  b: {ball-friction: {joint: link, static: 0.2, radius: 8 mm}}
+initial: {bodies: {arm: {velocity: [0, 0.8, -0.2], angular-velocity: [0, 2, 8]}, bob: {velocity: [0, 1.6, -0.4]}}}
+simulation: {duration: 2 s, step: 1 ms}
+output: {every: 10 ms, sensors: {balance: {energy: balance}, lost: {energy: dissipated}}}
+"""
+
+
+def test_balls_whose_sliding_turns_settle(sensors, tmp_path):
+    out = sensors(BALLS)
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["step_control"]["failed"] == 0
+    # Some thirty and halved steps, if the tangent does not know that the torque turns with the sliding.
+    assert summary["newton_iterations"]["max"] <= 12
+    assert abs(out["balance"]).max() < 2e-3 * out["lost"][-1]

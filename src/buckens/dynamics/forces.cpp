@@ -226,16 +226,14 @@ void add_parts(const model::Model& model, const model::Load& load, const LoadEnd
   }
 }
 
-/// Of the rows that come next.
-void add_mix(const loads::ForceElement& element, const loads::Sight& sight, bool is_off,
-             SoftRows& out) {
+}  // namespace
+
+void append_mix(const loads::ForceElement& element, const loads::Sight& sight, SoftRows& out) {
   loads::RowMix mix;
-  if (is_off || !element.mix_rows(sight, mix)) return;
+  if (!element.mix_rows(sight, mix)) return;
   out.mixes.push_back(mix);
   out.first_of_mix.push_back(static_cast<int>(out.rows.size()));
 }
-
-}  // namespace
 
 void give_nothing(std::vector<loads::SoftRow>& rows) {
   for (loads::SoftRow& row : rows) {
@@ -290,7 +288,7 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
     if (!is_off && load.coordinate >= 0 && load.element->uses_signals()) {
       add_slopes_of_signals(load, motions, around, {model, sight, out});
     }
-    add_mix(*load.element, sight, is_off, out);
+    if (!is_off) append_mix(*load.element, sight, out);
     out.of_others.clear();
     if (!load.others.empty()) load.element->append_others_of_rows(sight, out.of_others);
     const loads::TwistRow* of_others = out.of_others.data();

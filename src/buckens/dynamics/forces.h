@@ -115,6 +115,8 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
                         const ReactionSlopes* followers = nullptr,
                         std::vector<ReactionSlope>* slopes = nullptr,
                         const JointSet* at_joints = nullptr);
+/// Appends how the rows of an element that come next act together, if they do.
+void append_mix(const loads::ForceElement& element, const loads::Sight& sight, SoftRows& out);
 /// Rows of what is switched off stay in their places, since the number of rows is constant.
 void give_nothing(std::vector<loads::SoftRow>& rows);
 /// The same without circumstances, at t = 0.

@@ -98,6 +98,7 @@ void JointSet::append_soft_rows(std::size_t load, const std::vector<BodyMotion>&
   if (slopes != nullptr && seen.law.follows != nullptr && !is_off && !seen.is_released) {
     append_slopes(seen.joint, seen.law, sight, units.data(), *slopes);
   }
+  if (!is_off && out.of_one.size() > 1) append_mix(*own.element, sight, out);
   for (const loads::SoftRow& row : out.of_one) {
     SystemRow& place = out.rows.emplace_back();
     derive(seen.joint.first, seen.F,

@@ -52,6 +52,7 @@ BallFriction::Stand BallFriction::look(const Sight& sight) const {
     const double most = bound_.at(load, out.rate.segment(first, count).norm());
     const double share = size > most ? most / size : 1.0;
     out.torque.segment(first, count) = share * trial.segment(first, count);
+    out.share = share;
     if (share == 1.0) return;
     for (int k = first; k < first + count; ++k) out.slides[static_cast<std::size_t>(k)] = true;
     out.strain.segment(first, count) =
@@ -100,11 +101,21 @@ void BallFriction::append_tangent(const Sight& sight, std::vector<SoftRow>& rows
     row.J.segment<3>(0) = -s.along.col(k).transpose();
     row.J.segment<3>(6) = s.along.col(k).transpose();
     const bool is_held = !(arms_ && k == 2);
-    const bool sticks = is_held && !s.slides[static_cast<std::size_t>(k)];
-    row.stiffness = sticks ? s.stiffness : 0.0;
-    row.damping = (sticks ? s.damping : 0.0) + (is_held ? bound_.data().viscous : 0.0);
+    // A ball that slides answers across its direction of sliding, see mix_rows().
+    const bool answers = is_held && !(arms_ && s.slides[static_cast<std::size_t>(k)]);
+    row.stiffness = answers ? s.stiffness : 0.0;
+    row.damping = (answers ? s.damping : 0.0) + (is_held ? bound_.data().viscous : 0.0);
     rows.push_back(row);
   }
+}
+
+bool BallFriction::mix_rows(const Sight& sight, RowMix& mix) const {
+  if (arms_) return false;
+  const Stand s = look(sight);
+  if (!s.slides[0]) return false;
+  const Vector3d towards = (s.torque + bound_.data().viscous * s.rate).normalized();
+  mix = s.share * (Matrix3d::Identity() - towards * towards.transpose());
+  return true;
 }
 
 void BallFriction::append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const {

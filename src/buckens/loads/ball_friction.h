@@ -30,6 +30,7 @@ class BallFriction final : public ForceElement, public ReactionFollower {
   Action respond(const Sight& sight) const override;
   int num_soft_rows() const override { return 3; }
   void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const override;
+  bool mix_rows(const Sight& sight, RowMix& mix) const override;
   void append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const override;
   double most_at_rest(const Sight& sight) const override;
   /// Whether the bound is that of each arm of a cross joint, not of the whole torque.
@@ -48,6 +49,7 @@ class BallFriction final : public ForceElement, public ReactionFollower {
     std::array<bool, 3> slides{};
     double stiffness = 0, damping = 0;
     double bound_per_load = 0;  // relative growth of the bound with N [1/(N m)]
+    double share = 1;           // of the trial torque of a ball that its bound admits
   };
   Stand look(const Sight& sight) const;
 

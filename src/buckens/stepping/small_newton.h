@@ -115,6 +115,8 @@ class SmallNewton {
   void set_slopes();
   /// And how soft rows of one element act together.
   void add_slopes_of_mixes();
+  /// @param soft the row whose force grows, @param place of what it grows with
+  void add_slope(int soft, int place, double value);
   /// Passes them on once more, as they are after the first iteration: slopes by multipliers of the
   /// last step are wrong by the angle by which reactions have turned since. @return whether it did
   bool renew_slopes();
@@ -204,6 +206,8 @@ class SmallNewton {
   std::vector<dynamics::ReactionSlope> slopes_of_joints_;  // after the first iteration
   bool slopes_are_old_ = false;                            // still those of the predicted motion
   std::vector<dynamics::MultiplierSlope> slopes_in_use_;
+  std::vector<loads::RowMix> inverse_mixes_;  // nearly: of singular ones
+  std::vector<int> mix_of_row_;               // of each soft row, −1: none
   std::vector<dynamics::BodyCompliance> compliance_;
 
   std::vector<BodyIteration> shares_;                          // per body

@@ -64,31 +64,34 @@ int SmallNewton::place_of(const dynamics::ReactionSlope& slope) const {
 void SmallNewton::set_slopes() {
   const int in_use = static_cast<int>(rows_in_use_.size());
   slopes_in_use_.clear();
+  add_slopes_of_mixes();
   int sliding = -1;
   for (const dynamics::ReactionSlope& slope : slopes_) {
     const auto soft = static_cast<std::size_t>(slope.soft);
     const int place = place_of(slope);
     if (place < 0 || soft_.is_closed[soft] || held_.holds(slope.soft)) continue;
-    slopes_in_use_.push_back({in_use + slope.soft, place, slope.value});
+    add_slope(slope.soft, place, slope.value);
     // Where a force only follows multipliers, bodies move by it all the same.
     const bool gives_way = soft_.stiffness[soft] != 0.0 || soft_.damping[soft] != 0.0;
     if (gives_way || slope.soft == sliding) continue;
     sliding = slope.soft;
     condensation_->set_row(in_use + slope.soft, dynamics::SystemRow{}, soft_.rows[soft]);
   }
-  add_slopes_of_mixes();
   condensation_->set_slopes(slopes_in_use_);
 }
 
 void SmallNewton::add_slopes_of_mixes() {
   const int in_use = static_cast<int>(rows_in_use_.size());
+  inverse_mixes_.clear();
+  mix_of_row_.assign(soft_.rows.size(), -1);
   for (std::size_t m = 0; m < soft_.mixes.size(); ++m) {
     // f = R f̂ as f = f̂ + W f, with W = 1 − R⁻¹ of an R that is not quite singular.
     loads::RowMix R = soft_.mixes[m];
     R.diagonal().array() += kOwnShare;
-    const loads::RowMix inverse = R.inverse();
+    const loads::RowMix& inverse = inverse_mixes_.emplace_back(R.inverse());
     const int first = soft_.first_of_mix[m], count = static_cast<int>(R.rows());
     for (int i = 0; i < count; ++i) {
+      mix_of_row_[static_cast<std::size_t>(first + i)] = static_cast<int>(m);
       if (soft_.stiffness[static_cast<std::size_t>(first + i)] == 0.0) continue;
       for (int j = 0; j < count; ++j) {
         const double value = (i == j ? 1.0 : 0.0) - inverse(i, j);
@@ -96,6 +99,21 @@ void SmallNewton::add_slopes_of_mixes() {
         slopes_in_use_.push_back({in_use + first + i, in_use + first + j, value});
       }
     }
+  }
+}
+
+void SmallNewton::add_slope(int soft, int place, double value) {
+  const int in_use = static_cast<int>(rows_in_use_.size());
+  const int m = mix_of_row_[static_cast<std::size_t>(soft)];
+  if (m < 0) {
+    slopes_in_use_.push_back({in_use + soft, place, value});
+    return;
+  }
+  // f = R f̂ + w λ as f = f̂ + W f + R⁻¹ w λ.
+  const loads::RowMix& inverse = inverse_mixes_[static_cast<std::size_t>(m)];
+  const int first = soft_.first_of_mix[static_cast<std::size_t>(m)];
+  for (int k = 0; k < static_cast<int>(inverse.rows()); ++k) {
+    slopes_in_use_.push_back({in_use + first + k, place, inverse(k, soft - first) * value});
   }
 }
 
