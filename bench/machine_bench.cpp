@@ -43,6 +43,13 @@ void slider_crank_step(benchmark::State& state) {
 void slider_crank_with_friction_step(benchmark::State& state) {
   step(state, buckens::bench::slider_crank(buckens::bench::friction_in_all_joints()), 1e-4);
 }
+void solid_slider_crank_step(benchmark::State& state) {
+  step(state, buckens::bench::solid_slider_crank(""), 1e-4);
+}
+void solid_slider_crank_with_friction_step(benchmark::State& state) {
+  step(state, buckens::bench::solid_slider_crank(buckens::bench::friction_in_all_joints_in_space()),
+       1e-4);
+}
 void gear_train_step(benchmark::State& state) { step(state, buckens::bench::gear_train(), 1e-4); }
 void belt_drive_step(benchmark::State& state) { step(state, buckens::bench::belt_drive(), 5e-4); }
 
@@ -88,6 +95,8 @@ BENCHMARK(four_bar_step)->Unit(benchmark::kMicrosecond);
 BENCHMARK(four_bar_with_friction_and_stops_step)->Unit(benchmark::kMicrosecond);
 BENCHMARK(slider_crank_step)->Unit(benchmark::kMicrosecond);
 BENCHMARK(slider_crank_with_friction_step)->Unit(benchmark::kMicrosecond);
+BENCHMARK(solid_slider_crank_step)->Unit(benchmark::kMicrosecond);
+BENCHMARK(solid_slider_crank_with_friction_step)->Unit(benchmark::kMicrosecond);
 BENCHMARK(gear_train_step)->Unit(benchmark::kMicrosecond);
 BENCHMARK(belt_drive_step)->Unit(benchmark::kMicrosecond);
 BENCHMARK(falling_spheres_step)

@@ -186,6 +186,37 @@ inline std::string friction_in_all_joints() {
 )";
 }
 
+/// The same mechanism in space, with a rod of solid elements: some 2800 variables.
+/// @param laws `loads:` of the model; may be empty
+inline std::string solid_slider_crank(const std::string& laws) {
+  return R"(buckens: 1
+materials: {steel: {E: 200 GPa, nu: 0.3, rho: 7870 kg/m^3, damping: {stiffness: 1e-6 s}}}
+bodies:
+  crank: {rigid: {mass: 0.36, com: [0.075, 0, 0], inertia: [1e-4, 2.727e-3, 2.727e-3]}, markers: {shaft: {position: [0, 0, 0]}, pin: {position: [0.15, 0, 0]}}}
+  rod:
+    mesh: {box: {size: [0.3, 0.012, 0.008], divisions: [36, 4, 4], element: hex8}, material: steel}
+    at: {position: [0.15, -0.006, -0.004]}
+    interfaces: {big: {face: x0}, small: {face: x1}}
+  slider: {rigid: {mass: 0.033, inertia: [1e-6, 1e-6, 1e-6]}, at: {position: [0.45, 0, 0]}}
+joints:
+  shaft: {revolute: {between: [ground, crank/shaft], axis: [0, 0, 1]}}
+  motor: {prescribed-rotation: {between: [ground, crank/shaft], axis: [0, 0, 1], angle: "150*t rad"}}
+  big_end: {revolute: {between: [crank/pin, rod/big], axis: [0, 0, 1]}}
+  small_end: {spherical: {between: [rod/small, slider]}}
+  guide: {prismatic: {between: [ground, slider], axis: [1, 0, 0]}}
+)" + laws;
+}
+
+/// Friction in all joints of the slider-crank with a solid rod.
+inline std::string friction_in_all_joints_in_space() {
+  return R"(loads:
+  f_shaft: {hinge-friction: {joint: shaft, static: 0.1, radius: 10 mm}}
+  f_big: {hinge-friction: {joint: big_end, static: 0.1, radius: 8 mm}}
+  f_small: {ball-friction: {joint: small_end, static: 0.1, radius: 8 mm}}
+  f_guide: {slide-friction: {joint: guide, static: 0.1}}
+)";
+}
+
 /// Two gears with helical teeth, and a flywheel behind a flexible shaft.
 inline std::string gear_train() {
   return R"(buckens: 1

@@ -179,6 +179,10 @@ json time_ratios() {
   out["friction in all joints over none, flexible slider-crank with 8 beam elements"] =
       ratio_of_times(buckens::bench::start(slider_crank(friction_in_all_joints()), kStep),
                      buckens::bench::start(slider_crank(""), kStep));
+  out["friction in all joints over none, slider-crank with a solid rod of 2775 variables"] =
+      ratio_of_times(
+          buckens::bench::start(solid_slider_crank(friction_in_all_joints_in_space()), kStep),
+          buckens::bench::start(solid_slider_crank(""), kStep));
   const auto beam = [](bool side_by_side) {
     buckens::stepping::StepSettings settings;
     settings.step = kStep;

@@ -321,3 +321,40 @@ def test_wrong_bristles_are_named(buckens, tmp_path, words, before, after):
     assert before in text
     (tmp_path / "model.yaml").write_text(text.replace(before, after))
     buckens("check", "model.yaml").must(2, "model.yaml:10:", words)
+
+
+BELT_AT_REST = """
+buckens: 1
+planar: xy
+bodies:
+  motor: {rigid: {mass: 1, inertia: [0, 0, 1e-3]}}
+  fan: {rigid: {mass: 1, inertia: [0, 0, 2e-3]}, at: {position: [0.5, 0, 0]}}
+joints: {a: {revolute: {between: [ground, motor]}}, b: {revolute: {between: [{ground: [0.5, 0, 0]}, fan]}}}
+loads:
+  belt: {elastic-belt: {between: [motor, fan], radii: [0.1, 0.15], stiffness: 1e5, pretension: 50, damping-time: 1 ms FRICTION}}
+  hold: {hinge-spring: {joint: b, stiffness: 100}}
+  t: {torque: {on: motor, value: [0, 0, TORQUE]}}
+initial: {start: static}
+simulation: {duration: 0.05, step: 1e-3}
+output: {every: 10 ms, sensors: {a: {joint-coordinate: a}, b: {joint-coordinate: b}, belt: {belt: belt}}}
+"""
+
+
+@pytest.mark.parametrize("friction", ["", ", friction: 0.3"])
+def test_a_belt_carries_its_torque_at_rest(sensors, friction):
+    out = sensors(BELT_AT_REST.replace("TORQUE", "2").replace(" FRICTION", friction))
+    span = math.sqrt(0.5**2 - 0.05**2)
+    # T r2/r1 on the spring; both spans stretch by half of the difference of tensions T/r1, and the run stays there.
+    b = 2 * 0.15 / 0.1 / 100
+    a = (0.15 * b + 0.5 * 2 / 0.1 * span / 1e5) / 0.1
+    assert out["b.value"] == pytest.approx(b, abs=1e-12)
+    assert out["a.value"] == pytest.approx(a, abs=1e-12)
+    assert numpy.abs(out["belt.right"] - out["belt.left"]) == pytest.approx(2 / 0.1, rel=1e-9)
+
+
+def test_a_belt_holds_at_rest_up_to_its_friction(buckens, tmp_path):
+    wrap = math.pi - 2 * math.asin(0.05 / 0.5)
+    limit = 2 * 50 * math.tanh(0.3 * wrap / 2) * 0.1
+    for torque, code, words in ((0.99 * limit, 0, []), (1.01 * limit, 3, ["no static equilibrium", "\"motor\" turns"])):
+        (tmp_path / "model.yaml").write_text(BELT_AT_REST.replace("TORQUE", str(torque)).replace(" FRICTION", ", friction: 0.3"))
+        buckens("run", "model.yaml", "-o", f"out{code}", "--quiet").must(code, *words)

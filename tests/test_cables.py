@@ -327,3 +327,32 @@ def test_the_block_and_tackle_of_the_examples(sensors):
     assert numpy.ptp(tensions, axis=0).max() < 1e-8 * tensions.max()
     assert tensions[:, -1] == pytest.approx(200 * G / 4, rel=1e-3)
     assert abs(out["turn.z"]).max() < 1e-9
+
+
+@pytest.mark.parametrize("friction, holds", [(0.221, True), (0.2, False)])
+def test_a_rope_holds_at_rest_up_to_eulers_law(buckens, tmp_path, friction, holds):
+    """Two to one, over half a turn: ln 2/pi = 0.2206."""
+    (tmp_path / "model.yaml").write_text(f"""
+buckens: 1
+planar: xy
+gravity: [0, -9.81, 0]
+bodies:
+  light: {{rigid: {{mass: 1, inertia: [0, 0, 1e-3]}}, at: {{position: [-0.1, -1, 0]}}}}
+  heavy: {{rigid: {{mass: 2, inertia: [0, 0, 1e-3]}}, at: {{position: [0.1, -1, 0]}}}}
+joints:
+  a: {{prismatic: {{between: [{{ground: [-0.1, 0, 0]}}, light], axis: [0, 1, 0]}}}}
+  b: {{prismatic: {{between: [{{ground: [0.1, 0, 0]}}, heavy], axis: [0, 1, 0]}}}}
+loads:
+  rope: {{cable: {{ends: [light, heavy], pulleys: [{{on: ground, radius: 0.1, side: right}}], stiffness: 1e5, damping-time: 5 ms, pretension: 13, friction: {friction}}}}}
+initial: {{start: static}}
+simulation: {{duration: 50 ms, step: 1 ms}}
+output: {{every: 10 ms, sensors: {{rope: {{cable: rope}}}}}}
+""")
+    result = buckens("run", "model.yaml", "-o", "out", "--quiet")
+    if not holds:
+        assert result.code != 0 or "not stable" in result.err
+        return
+    result.must(0)
+    out = numpy.genfromtxt(tmp_path / "out" / "sensors.csv", delimiter=",", names=True, comments=None)
+    assert out["ropetension1_N"] == pytest.approx(G, rel=1e-7)
+    assert out["ropetension2_N"] == pytest.approx(2 * G, rel=1e-7)

@@ -2,6 +2,7 @@
 #include "buckens/loads/elastic_belt.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -116,11 +117,11 @@ ElasticBelt::Stand ElasticBelt::look(const Sight& sight) const {
   out.first_angle = angle_about(axis, e, sight.first.R * data_.x_F);
   out.second_angle = angle_about(axis, e, sight.second.R * data_.x_M);
   out.stretch = data_.pretension + data_.stiffness * (way(D, r1, r2) - data_.way);
-  if (sight.states != nullptr) {
-    out.wound = sight.states[kWound] +
-                r1 * within_turn(out.first_angle - sight.states[kFirstAngle]) -
-                r2 * within_turn(out.second_angle - sight.states[kSecondAngle]);
-  }
+  // At rest it is as far as its pulleys have turned since it was placed.
+  const std::array<double, 3> placed = {data_.placed_angle, data_.placed_angle, 0.0};
+  const double* const before = sight.states != nullptr ? sight.states : placed.data();
+  out.wound = before[kWound] + r1 * within_turn(out.first_angle - before[kFirstAngle]) -
+              r2 * within_turn(out.second_angle - before[kSecondAngle]);
   if (data_.coefficient) {
     // An open belt wraps π + 2γ and π − 2γ, a crossed one π + 2γ twice.
     const double gamma = std::asin(sine);
@@ -179,9 +180,11 @@ void ElasticBelt::append_tangent(const Sight& sight, std::vector<SoftRow>& rows)
 }
 
 void ElasticBelt::start_states(const Sight& sight, double* states) const {
+  // Put on where the pulleys stand.
   Sight fresh = sight;
   fresh.states = nullptr;
   find_states(fresh, states);
+  states[kWound] = states[kSlip] = 0.0;
 }
 
 void ElasticBelt::find_states(const Sight& sight, double* states) const {

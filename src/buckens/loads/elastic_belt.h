@@ -20,6 +20,7 @@ struct ElasticBeltData {
   double pretension = 0;                              ///< [N]
   double way = 0;                     ///< of a span and its share of the wraps, as placed [m]
   std::optional<double> coefficient;  ///< none: it does not slip
+  double placed_angle = 0;            ///< of both pulleys from the line of centres, as placed [rad]
 };
 
 /// What a belt does at one instant.

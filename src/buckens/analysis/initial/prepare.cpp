@@ -21,6 +21,7 @@
 #include "buckens/dynamics/row_memory.h"
 #include "buckens/dynamics/signals.h"
 #include "buckens/dynamics/travel.h"
+#include "buckens/loads/elastic_belt.h"
 #include "buckens/loads/rigid_law.h"
 
 namespace buckens::analysis {
@@ -125,6 +126,18 @@ void close_rows(const model::Model& model, const RestStands& at_rest,
   }
 }
 
+/// Lets belts keep what has wound on as bodies went to their equilibrium.
+void keep_wound(const model::Model& model, const std::vector<dynamics::BodyMotion>& motions,
+                model::State& state) {
+  for (std::size_t k = 0; k < model.loads.size(); ++k) {
+    const model::Load& load = model.loads[k];
+    if (dynamic_cast<const loads::ElasticBelt*>(load.element.get()) == nullptr) continue;
+    const dynamics::LoadEnds ends = dynamics::ends_of(model, load, motions, nullptr);
+    const loads::Sight at_rest = dynamics::sight_of(model, k, state.t, {}, ends);
+    load.element->find_states(at_rest, state.memory.laws.data() + load.first_state);
+  }
+}
+
 /// Moves bodies to the equilibrium from which the motion starts. @return how its rows stand
 RestStands settle_at_rest(const model::BuiltModel& built, const dynamics::MassMetric& metric,
                           Prepared& out) {
@@ -147,6 +160,17 @@ void begin_drives(const model::BuiltModel& built, model::State& state) {
   state.memory = memory_at_start(built, motions);
   count_start_turns(built.starts, built.model, state.memory);
   dynamics::start_signals(built.model, motions, state.t, state.memory);
+}
+
+/// Which rows of joints are independent where the motion starts.
+void choose_rows(const model::Model& model, const dynamics::MassMetric& metric, Prepared& out) {
+  dynamics::Constraints constraints;
+  dynamics::evaluate_constraints(model, dynamics::motions_of(model, out.state), out.state.t,
+                                 &out.state.memory, constraints);
+  const linalg::RowRank rank = metric.split(constraints.rows);
+  out.rows_in_use = rank.independent;
+  out.redundant_rows = rank.dependent;
+  out.redundant_text = describe_redundancy(model, out.state.memory, rank.dependent);
 }
 
 }  // namespace
@@ -181,21 +205,17 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
   }
   RestStands at_rest;
   const bool is_static = initial.start == model::StartKind::static_equilibrium;
-  if (is_static || initial.preload) at_rest = settle_at_rest(built, metric, out);
+  bool is_at_rest = is_static || initial.preload;
+  if (is_at_rest) at_rest = settle_at_rest(built, metric, out);
   if (set_initial_displacements(built, out.state)) {
     at_rest.clear();
+    is_at_rest = false;
     assemble_positions(model, metric, out.state, built.starts);
   }
   set_initial_velocities(built, out.state);
   if (!model.drives.empty()) begin_drives(built, out.state);
 
-  dynamics::Constraints constraints;
-  dynamics::evaluate_constraints(model, dynamics::motions_of(model, out.state), out.state.t,
-                                 &out.state.memory, constraints);
-  const linalg::RowRank rank = metric.split(constraints.rows);
-  out.rows_in_use = rank.independent;
-  out.redundant_rows = rank.dependent;
-  out.redundant_text = describe_redundancy(model, out.state.memory, rank.dependent);
+  choose_rows(model, metric, out);
   const model::State given = out.state;
   project_velocities(model, metric, out.state, built.starts);
   for (std::string& text : describe_velocity_changes(built, given, out.state)) {
@@ -204,6 +224,7 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
   refuse_beyond_stops(model, out.state);
   const auto motions = dynamics::motions_of(model, out.state);
   out.state.memory = memory_at_start(built, motions);
+  if (is_at_rest) keep_wound(model, motions, out.state);
   close_rows(model, at_rest, motions, out.state.memory);
   count_start_turns(built.starts, model, out.state.memory);
   dynamics::start_signals(model, motions, out.state.t, out.state.memory);  // they see the turns

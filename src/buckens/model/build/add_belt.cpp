@@ -40,6 +40,8 @@ void set_belt(const loads::ElasticBeltSpec& spec, MarkerFinder& find, Load& load
   const Vector3d x_W = axis_W.unitOrthogonal();
   data.x_F = p.R_WF.transpose() * x_W;
   data.x_M = p.R_WM.transpose() * x_W;
+  const Vector3d e = (apart - axis_W * axis_W.dot(apart)) / distance;
+  data.placed_angle = std::atan2(axis_W.dot(e.cross(x_W)), e.dot(x_W));
   data.way = loads::ElasticBelt::way(distance, data.first_radius, data.second_radius);
   const double span = std::sqrt(distance * distance - least * least);
   data.stiffness = spec.stiffness / span;
