@@ -178,6 +178,35 @@ simulation: {duration: 0.4 s, step: 1 ms, STEP}
 output: {every: 7 ms, sensors: {way: {joint-coordinate: hole}, hole: {joint-force: hole}, disc: {position: disc}}}
 """
 
+# A bead that is driven around a closed spline, one that a spring pulls over laps and a stop throws back, a puck and a ball joint.
+COORDINATES = """buckens: 1
+gravity: [0, 0, -9.81]
+bodies:
+  led: {rigid: {mass: 0.3 kg, inertia: [1e-3, 1e-3, 1e-3]}, at: {position: [0.1, 0, 0]}}
+  free: {rigid: {mass: 0.2 kg, inertia: [1e-3, 1e-3, 1e-3]}, at: {position: [0.1, 0, 0]}}
+  puck: {rigid: {mass: 0.2 kg, inertia: [1e-3, 1e-3, 2e-3]}, at: {position: [0, 1, 0]}}
+  rod: {rigid: {mass: 1 kg, com: [0, 0, -0.3], inertia: [0.03, 0.03, 0.001]}, markers: {top: {position: [0, 0, 0]}}, at: {orientation: {euler: [0.3 rad, 0, 0]}}}
+joints:
+  hoop: {slot: {between: [ground, led], closed: on, path: [[0.1, 0, 0], [0, 0.08, 0.02], [-0.1, 0, 0], [0, -0.12, 0.01]]}}
+  loop: {slot: {between: [ground, free], closed: on, path: [[0.1, 0, 0], [0, 0.08, 0.02], [-0.1, 0, 0], [0, -0.12, 0.01]]}}
+  ice: {planar: {between: [ground, puck], axis: [0, 0, 1]}}
+  ball: {spherical: {between: [ground, rod/top], axis: [0, 0, -1], second-axis: [0, 0.29552020666133955, -0.955336489125606]}}
+  drive: {prescribed-coordinate: {joint: hoop, velocity: "3 + lagged"}}
+signals:
+  swing: {joint-coordinate: {joint: ball, which: swing}}
+  lagged: {lag: {input: "5*swing", time-constant: 20 ms}}
+loads:
+  pull: {slide-spring: {joint: loop, stiffness: 4 N/m, displacement: 2 m}}
+  end: {slide-stop: {joint: loop, to: 1.2 m, restitution: 0.6}}
+  wide: {slide-spring: {joint: ice, which: x, stiffness: 40 N/m}}
+  long: {slide-spring: {joint: ice, which: "y", stiffness: 90 N/m}}
+  wind: {hinge-spring: {joint: ball, which: twist, stiffness: 0.2}}
+  cone: {hinge-stop: {joint: ball, which: swing, to: 0.35, stiffness: 500 N m/rad, damping: 1 N m s/rad}}
+initial: {joints: {ice: {x: 20 mm, y-velocity: 0.3, speed: 9}, ball: {twist: 0.5}}, bodies: {rod: {velocity: [0.4, 0, 0]}}}
+simulation: {duration: 0.6 s, step: 1 ms, STEP}
+output: {every: 7 ms, sensors: {led: {joint-coordinate: hoop}, way: {joint-coordinate: loop}, puck: {position: puck}, twist: {joint-coordinate: {joint: ball, which: twist}}, swing: {joint-coordinate: {joint: ball, which: swing}}, hoop: {joint-force: hoop}}}
+"""
+
 # Six balls meet, hit a floor and one another.
 HEAP = """buckens: 1
 gravity: [0, 0, -9.81]
@@ -351,6 +380,9 @@ CASES = {
     "meshing, step control": (model(MESHING, step="tolerance: 1e-4"), 0.1501),
     "a slider and a wheel": (model(SLIDER), 0.2),
     "a slider and a wheel, newmark": (model(SLIDER, step="method: newmark"), 0.2),
+    "coordinates by name": (model(COORDINATES), 0.3),
+    "coordinates by name, hht": (model(COORDINATES, step="method: hht"), 0.3),
+    "coordinates by name, step control": (model(COORDINATES, step="tolerance: 1e-4"), 0.3),
     "rigid rows": (model(RIGID), 0.0301),
     "rigid contact with friction": (model(ROUGH), 0.3001),
     "rigid contact with friction, step control": (model(ROUGH, step="tolerance: 1e-4"), 0.3001),

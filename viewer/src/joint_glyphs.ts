@@ -269,6 +269,7 @@ export function jointGlyph(type: string, color: THREE.ColorRepresentation): THRE
     case 'slot':
       return slot(material);
     case 'coupler':
+    case 'prescribed-coordinate':
       return coupler(material);
     case 'slider-on-beam':
       return sliderOnBeam(material);

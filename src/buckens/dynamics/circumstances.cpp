@@ -106,8 +106,9 @@ joints::CountedValue counted_coordinate(const model::Model& model, std::size_t c
                                         const model::RowMemory* memory,
                                         const spatial::MarkerMotion& first,
                                         const spatial::MarkerMotion& second) {
-  return counted(model, coordinate, memory,
-                 model.coordinates[coordinate].law.fraction(first, second));
+  return counted(
+      model, coordinate, memory,
+      model.coordinates[coordinate].law.fraction(first, second, before_of(memory, coordinate)));
 }
 
 JointWrenches wrenches_of(const model::Model& model, const model::Joint& joint, double t,
@@ -120,7 +121,7 @@ JointWrenches wrenches_of(const model::Model& model, const model::Joint& joint, 
     const auto index = static_cast<std::size_t>(own.coordinate);
     const double value = counted_coordinate(model, index, memory, first, second).value();
     sum = lambda[joint.first_row] * own.term.slope(value) *
-          model.coordinates[index].law.derivatives(first, second);
+          model.coordinates[index].law.derivatives(first, second, before_of(memory, index));
   } else {
     const double* states = states_of(joint, memory);
     for (std::size_t k = 0; k < joint.rows.size(); ++k) {
@@ -140,15 +141,15 @@ loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t
                                           const model::RowMemory* memory,
                                           const spatial::MarkerMotion& first,
                                           const spatial::MarkerMotion& second) {
-  const joints::CoordinateLook look = model.coordinates[coordinate].law.look(first, second);
+  const joints::CountedValue* const at = before_of(memory, coordinate);
+  const joints::CoordinateLook look = model.coordinates[coordinate].law.look(first, second, at);
   const joints::CountedValue now = counted(model, coordinate, memory, look.fraction);
   loads::CoordinateMotion out;
   out.J = look.J;
   out.rate = look.rate;
   out.value = now.value();
-  if (memory == nullptr || memory->coordinates.empty()) return out;
-  const joints::CountedValue& before = memory->coordinates[coordinate];
-  out.change = joints::difference(before, now);
+  if (at == nullptr) return out;
+  out.change = joints::difference(*at, now);
   return out;
 }
 

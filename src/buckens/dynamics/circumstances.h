@@ -27,6 +27,13 @@ inline const double* states_of(const model::Joint& joint, const model::RowMemory
                                                        : memory->rows.data() + joint.first_state;
 }
 
+/// Where a joint coordinate was a step before; null where no memory says so.
+inline const joints::CountedValue* before_of(const model::RowMemory* memory,
+                                             std::size_t coordinate) {
+  return memory == nullptr || memory->coordinates.empty() ? nullptr
+                                                          : &memory->coordinates[coordinate];
+}
+
 /// Value of a joint coordinate with its turns.
 /// @param first,second motions of its markers
 /// @throws NumericalError beyond 3 rad where no memory counts the turns

@@ -21,8 +21,8 @@ Twists twists(const spatial::MarkerMotion& first, const spatial::MarkerMotion& s
 
 /// The row of a coupler: shares of all joints whose coordinates it couples.
 void evaluate_coupler(const model::Model& model, const model::Joint& joint,
-                      const std::vector<BodyMotion>& motions, const model::RowMemory* memory,
-                      Constraints& out) {
+                      const std::vector<BodyMotion>& motions, double t,
+                      const model::RowMemory* memory, Constraints& out) {
   joints::CouplerSum sum;
   double rate = 0.0;
   SystemRow row;
@@ -37,7 +37,8 @@ void evaluate_coupler(const model::Model& model, const model::Joint& joint,
     const joints::CoordinateTerm& term = joint.coupled[k].term;
     sum.add(term, value);
     const spatial::PairRow J =
-        term.slope(value.value()) * coordinate.law.derivatives(first.motion, second.motion);
+        term.slope(value.value()) *
+        coordinate.law.derivatives(first.motion, second.motion, before_of(memory, index));
     rate += J.dot(twists(first.motion, second.motion));
     const SystemRow share = system_row(model, owner.first, first, owner.second, second, J);
     if (k == 0) {
@@ -48,9 +49,12 @@ void evaluate_coupler(const model::Model& model, const model::Joint& joint,
       row.more.push_back(share.second);
     }
   }
-  out.g[joint.first_row] = sum.value();
-  out.g_dot[joint.first_row] = rate;
-  out.g_t[joint.first_row] = 0.0;
+  const joints::ConstraintRow& drive = joint.rows.front();
+  const double* const states = states_of(joint, memory);
+  const double ahead = drive.driven_rate(t, states);
+  out.g[joint.first_row] = sum.value() - drive.driven_to(t, states);
+  out.g_dot[joint.first_row] = rate - ahead;
+  out.g_t[joint.first_row] = -ahead;
   out.rows[static_cast<std::size_t>(joint.first_row)] = std::move(row);
 }
 
@@ -83,8 +87,9 @@ void open_released(const model::Model& model, const model::RowMemory* memory, Co
 }
 
 double coupler_bias(const model::Model& model, const model::Joint& joint,
-                    const std::vector<BodyMotion>& motions, const model::RowMemory* memory) {
-  double out = 0.0;
+                    const std::vector<BodyMotion>& motions, double t,
+                    const model::RowMemory* memory) {
+  double out = -joint.rows.front().driven_acceleration(t, states_of(joint, memory));
   for (const model::CoupledCoordinate& coupled : joint.coupled) {
     const auto index = static_cast<std::size_t>(coupled.coordinate);
     const model::Coordinate& coordinate = model.coordinates[index];
@@ -92,10 +97,11 @@ double coupler_bias(const model::Model& model, const model::Joint& joint,
     const spatial::MarkerMotion F = evaluate_marker(model, owner.first, motions).motion;
     const spatial::MarkerMotion M = evaluate_marker(model, owner.second, motions).motion;
     const double value = counted_coordinate(model, index, memory, F, M).value();
-    const double rate = coordinate.law.derivatives(F, M).dot(twists(F, M));
+    const joints::CountedValue* const before = before_of(memory, index);
+    const double rate = coordinate.law.derivatives(F, M, before).dot(twists(F, M));
     out += coupled.term.slope(value) *
                coordinate.law.bias(F, M, evaluate_bias(model, owner.first, motions),
-                                   evaluate_bias(model, owner.second, motions)) +
+                                   evaluate_bias(model, owner.second, motions), before) +
            coupled.term.curvature(value) * rate * rate;
   }
   return out;
@@ -117,7 +123,7 @@ void evaluate_constraints(const model::Model& model, const std::vector<BodyMotio
   out.rows.resize(static_cast<std::size_t>(count));
   for (const model::Joint& joint : model.joints) {
     if (!joint.coupled.empty()) {
-      evaluate_coupler(model, joint, motions, memory, out);
+      evaluate_coupler(model, joint, motions, t, memory, out);
       continue;
     }
     if (joint.track) {
@@ -171,7 +177,7 @@ linalg::Vector constraint_bias(const model::Model& model, const std::vector<Body
   linalg::Vector bias(model.num_constraint_rows());
   for (const model::Joint& joint : model.joints) {
     if (!joint.coupled.empty()) {
-      bias[joint.first_row] = coupler_bias(model, joint, motions, memory);
+      bias[joint.first_row] = coupler_bias(model, joint, motions, t, memory);
       continue;
     }
     if (joint.track) {

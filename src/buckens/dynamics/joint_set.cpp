@@ -156,7 +156,7 @@ void JointSet::derive(const End& end, const Motion& motion, const Wrench& wrench
 }
 
 void JointSet::evaluate_coupler(const Joint& joint, const std::vector<BodyMotion>& motions,
-                                const model::RowMemory* memory, JointResiduals& out,
+                                double t, const model::RowMemory* memory, JointResiduals& out,
                                 const linalg::Vector* lambda, Forces* forces) const {
   const double multiplier = lambda != nullptr ? (*lambda)[joint.first_row] : 0.0;
   joints::CouplerSum sum;
@@ -170,8 +170,9 @@ void JointSet::evaluate_coupler(const Joint& joint, const std::vector<BodyMotion
     const joints::CountedValue value =
         counted_coordinate(model_, own.coordinate, memory, first, second);
     sum.add(*own.term, value);
-    const spatial::PairRow J = own.term->slope(value.value()) *
-                               model_.coordinates[own.coordinate].law.derivatives(first, second);
+    const spatial::PairRow J =
+        own.term->slope(value.value()) * model_.coordinates[own.coordinate].law.derivatives(
+                                             first, second, before_of(memory, own.coordinate));
     rate += J.segment<3>(0).dot(F.w) + J.segment<3>(3).dot(F.v) + J.segment<3>(6).dot(M.w) +
             J.segment<3>(9).dot(M.v);
     if (forces == nullptr) continue;
@@ -179,9 +180,13 @@ void JointSet::evaluate_coupler(const Joint& joint, const std::vector<BodyMotion
     add_wrench(own.first, F, {f.segment<3>(0).transpose(), f.segment<3>(3).transpose()}, *forces);
     add_wrench(own.second, M, {f.segment<3>(6).transpose(), f.segment<3>(9).transpose()}, *forces);
   }
-  out.g[joint.first_row] = sum.value();
-  out.g_dot[joint.first_row] = rate;
-  out.g_t[joint.first_row] = 0.0;
+  const Row& drive = rows_[joint.rows];
+  const double* const states =
+      memory != nullptr && memory->rows.size() > 0 ? memory->rows.data() + drive.state : nullptr;
+  const double ahead = drive.row->driven_rate(t, states);
+  out.g[joint.first_row] = sum.value() - drive.row->driven_to(t, states);
+  out.g_dot[joint.first_row] = rate - ahead;
+  out.g_t[joint.first_row] = -ahead;
 }
 
 void JointSet::evaluate_slider(const model::Joint& joint, const std::vector<BodyMotion>& motions,
@@ -210,7 +215,8 @@ void JointSet::derive_coupler(const Joint& joint, const std::vector<BodyMotion>&
     const spatial::MarkerMotion second = M.marker(own.second);
     const double value = counted_coordinate(model_, own.coordinate, memory, first, second).value();
     const spatial::PairRow J =
-        own.term->slope(value) * model_.coordinates[own.coordinate].law.derivatives(first, second);
+        own.term->slope(value) * model_.coordinates[own.coordinate].law.derivatives(
+                                     first, second, before_of(memory, own.coordinate));
     derive(own.first, F, {J.segment<3>(0).transpose(), J.segment<3>(3).transpose()},
            out.part(2 * k));
     derive(own.second, M, {J.segment<3>(6).transpose(), J.segment<3>(9).transpose()},
@@ -280,7 +286,7 @@ void JointSet::evaluate(const std::vector<BodyMotion>& motions, double t,
     const bool is_released = has_let_go(model_, j, memory, out);
     if (is_released && !has_laws) continue;
     if (joint.num_coupled > 0) {
-      evaluate_coupler(joint, motions, memory, out, lambda, forces);
+      evaluate_coupler(joint, motions, t, memory, out, lambda, forces);
       continue;
     }
     if (joint.slider != nullptr) {

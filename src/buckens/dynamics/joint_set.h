@@ -139,7 +139,7 @@ class JointSet {
   static void append_slopes(const Joint& joint, const Law& law, const loads::Sight& sight,
                             const spatial::Wrench* units, std::vector<ReactionSlope>& out);
 
-  void evaluate_coupler(const Joint& joint, const std::vector<BodyMotion>& motions,
+  void evaluate_coupler(const Joint& joint, const std::vector<BodyMotion>& motions, double t,
                         const model::RowMemory* memory, JointResiduals& out,
                         const linalg::Vector* lambda, Forces* forces) const;
   void evaluate_slider(const model::Joint& joint, const std::vector<BodyMotion>& motions, double t,

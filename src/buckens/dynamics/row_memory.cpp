@@ -32,7 +32,7 @@ std::vector<Markers>& markers_of_coordinates() {
 
 double fraction_of(const model::Model& model, const model::Coordinate& coordinate,
                    const std::vector<BodyMotion>& motions, const model::RowMemory* memory,
-                   Markers* seen = nullptr) {
+                   const joints::CountedValue* before = nullptr, Markers* seen = nullptr) {
   Markers own;
   Markers& markers = seen != nullptr ? *seen : own;
   const model::Joint* const slider = slider_of(model, coordinate);
@@ -40,7 +40,7 @@ double fraction_of(const model::Model& model, const model::Coordinate& coordinat
   if (slider != nullptr) return Travel(model, *slider, motions, memory).displacement();
   markers.first = evaluate_marker(model, coordinate.first, motions).motion;
   markers.second = evaluate_marker(model, coordinate.second, motions).motion;
-  return coordinate.law.fraction(markers.first, markers.second);
+  return coordinate.law.fraction(markers.first, markers.second, before);
 }
 
 /// Where a slider is on its beam.
@@ -156,7 +156,8 @@ void advance_memory(const model::Model& model, const std::vector<BodyMotion>& mo
   for (std::size_t k = 0; k < before.coordinates.size(); ++k) {
     const model::Coordinate& coordinate = model.coordinates[k];
     out.coordinates[k] = coordinate.law.follow(
-        before.coordinates[k], fraction_of(model, coordinate, motions, &before, &seen[k]));
+        before.coordinates[k],
+        fraction_of(model, coordinate, motions, &before, &before.coordinates[k], &seen[k]));
   }
   out.rows.resize(before.rows.size());
   if (before.rows.size() > 0) {

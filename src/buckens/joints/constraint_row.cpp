@@ -88,9 +88,10 @@ ConstraintRow ConstraintRow::by_law(std::shared_ptr<const RowLaw> law) {
   return row;
 }
 
-ConstraintRow ConstraintRow::coupled(bool is_length) {
+ConstraintRow ConstraintRow::coupled(bool is_length, std::optional<base::TimeLaw> law) {
   ConstraintRow row;
   row.kind_ = Kind::coupled;
+  row.law_ = std::move(law);
   row.is_angle_ = !is_length;
   return row;
 }

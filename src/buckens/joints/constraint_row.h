@@ -41,7 +41,8 @@ struct Steering {
 ///   - `screw`:       s − p θ/2π = 0 with displacement s along and angle θ about an axis of F;
 ///   - `law`:         what a RowLaw says, which remembers something from step to step;
 ///   - `coupled`:     a sum over coordinates of other joints. It lies between more than two markers
-///                    and is evaluated from model::Joint::coupled; here stands only its unit;
+///                    and is evaluated from model::Joint::coupled; here stand only its unit and
+///                    its law of time;
 ///   - `travelling`:  between a marker and the point of a beam where it is now, evaluated from
 ///                    model::Joint::track; here stand only its number and its law of time.
 class ConstraintRow {
@@ -81,8 +82,9 @@ class ConstraintRow {
                              const Eigen::Vector3d& x_M, double offset, double pitch);
 
   static ConstraintRow by_law(std::shared_ptr<const RowLaw> law);
-  /// @param is_length whether the sum is a length or an angle
-  static ConstraintRow coupled(bool is_length);
+  /// @param is_length whether the sum is a length or an angle, @param law what it is to be, zero if
+  ///        absent
+  static ConstraintRow coupled(bool is_length, std::optional<base::TimeLaw> law = std::nullopt);
   /// @param number 0 and 1 across the beam, 2 along it
   /// @param displacement along the beam from s = 0 [m], of the row along it
   static ConstraintRow travelling(int number,
@@ -91,7 +93,7 @@ class ConstraintRow {
   /// The same row, following signals instead of a law of time: where it is to be stands in its
   /// states (Steering), which whoever evaluates signals writes.
   /// @param start where it is to be as long as its states say nothing [m] or [rad]
-  /// @pre depends_on_time(), of kind `point_along`, `direction` or `travelling`
+  /// @pre depends_on_time(), of kind `point_along`, `direction`, `coupled` or `travelling`
   ConstraintRow steered(double start) const;
 
   /// @param states what a row of kind `law` remembers, or a steered one is told; null: nothing is

@@ -6,17 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "buckens/base/coordinate_choice.h"
 #include "buckens/base/field.h"
 #include "buckens/base/source_location.h"
 
 namespace buckens::joints {
-
-/// Coordinate of a joint.
-enum class CoordinateChoice { angle, displacement, second_angle };
-
-constexpr std::array<const char*, 3> choice_names(CoordinateChoice) {
-  return {"angle", "displacement", "second-angle"};
-}
 
 /// One term of a coupler, named after its joint. At most one of factor, polynomial and table is
 /// given.
@@ -26,7 +20,7 @@ struct CouplerTermSpec {
   std::optional<double> factor;
   std::vector<double> polynomial;
   std::vector<std::array<double, 2>> table;
-  std::optional<CoordinateChoice> which;
+  std::optional<base::CoordinateChoice> which;
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -43,9 +37,12 @@ struct CouplerTermSpec {
                       "in place of the factor: points [x, value], x in rad or m, of a smooth curve")
               .like("[[0, 0], [1, 0.2], [2, 0.7]]")
               .otherwise("a factor"));
-    visit(base::field("which", which, "of joints that turn and slide, or turn about two axes")
-              .like("displacement")
-              .otherwise("the angle of joints that turn"));
+    visit(
+        base::field("which", which, "of joints with several coordinates")
+            .like("displacement")
+            .otherwise(
+                "the angle of joints that turn, the displacement of those that slide; needed where "
+                "there are only others"));
   }
 };
 
@@ -54,6 +51,7 @@ struct CouplerSpec {
   static constexpr const char* kDoc =
       "keeps a sum over coordinates of other joints at zero: angles counted over turns and "
       "displacements, both from the position as placed";
+  static constexpr const char* kInstead = "name one of the joints that it couples";
   std::vector<CouplerTermSpec> of;
 
   template <class Visitor>

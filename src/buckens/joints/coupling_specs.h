@@ -12,7 +12,8 @@ struct UniversalSpec : JointEndsAndDirection {
   static constexpr const char* kDoc =
       "Cardan joint: rotates about one arm of the cross held by the first body and about the other "
       "held by the second, its coordinates `angle` and `second-angle`";
-  static constexpr bool kTurns = true, kTurnsTwice = true;
+  static constexpr std::array kCoordinates{base::CoordinateChoice::angle,
+                                           base::CoordinateChoice::second_angle};
   Eigen::Vector3d second_axis = Eigen::Vector3d::Zero();  ///< in the first marker, as placed
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -28,7 +29,9 @@ struct UniversalSpec : JointEndsAndDirection {
 struct ConstantVelocitySpec : JointEndsAndDirection {
   static constexpr const char* kKey = "constant-velocity";
   static constexpr const char* kDoc =
-      "joint between two shafts that rotate at the same speed at any angle";
+      "joint between two shafts that rotate at the same speed at any angle; its coordinate `swing` "
+      "is the angle between them";
+  static constexpr std::array kCoordinates{base::CoordinateChoice::swing};
   std::optional<Eigen::Vector3d> second_axis;  ///< in the first marker, as placed
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -44,6 +47,8 @@ struct ConstantVelocitySpec : JointEndsAndDirection {
 struct DistanceSpec : JointEnds {
   static constexpr const char* kKey = "distance";
   static constexpr const char* kDoc = "massless rod with a ball joint at each marker";
+  static constexpr const char* kInstead =
+      "a rod moves as its ends do; name the joints at these, or observe a marker by `relative`";
   std::optional<double> length;  ///< [m]
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -60,7 +65,8 @@ struct ScrewSpec : JointEndsAndDirection {
   static constexpr const char* kKey = "screw";
   static constexpr const char* kDoc =
       "rotates about the axis and advances along it by the pitch per turn";
-  static constexpr bool kTurns = true, kSlides = true;
+  static constexpr std::array kCoordinates{base::CoordinateChoice::angle,
+                                           base::CoordinateChoice::displacement};
   double pitch = 0;  ///< [m] per turn
   template <class Visitor>
   void fields(Visitor& visit) {

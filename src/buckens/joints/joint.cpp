@@ -341,7 +341,7 @@ void add_guide_or_coupling(JointType type, const Triad& f, const Placement& plac
 }  // namespace
 
 std::string to_string(JointType type) {
-  static const std::array<const char*, 23> names = {"revolute",
+  static const std::array<const char*, 24> names = {"revolute",
                                                     "spherical",
                                                     "prismatic",
                                                     "fixed",
@@ -363,7 +363,8 @@ std::string to_string(JointType type) {
                                                     "slot",
                                                     "coupler",
                                                     "slider-on-beam",
-                                                    "rolling"};
+                                                    "rolling",
+                                                    "prescribed-coordinate"};
   return names[static_cast<std::size_t>(type)];
 }
 

@@ -36,7 +36,8 @@ enum class JointType {
   slot,
   coupler,
   slider_on_beam,
-  rolling
+  rolling,
+  prescribed_coordinate
 };
 
 /// Name of the kind as spelled in the model file.
@@ -69,8 +70,9 @@ struct Placement {
   /// Of a prescribed rotation: what turns with M as placed, unit vector in F across the axis; any
   /// if M turns about no other axis.
   std::optional<Eigen::Vector3d> mark_F;
-  bool as_found = false;  ///< whether a weld holds where it was attached
-  double edge = 0;        ///< of a wheel: radius of its rounded edge [m]
+  std::optional<Eigen::Vector3d> x_F;  ///< of planes: direction of x, none: the standard one
+  bool as_found = false;               ///< whether a weld holds where it was attached
+  double edge = 0;                     ///< of a wheel: radius of its rounded edge [m]
 };
 
 /// Rows of a joint of the given kind between two marker frames.

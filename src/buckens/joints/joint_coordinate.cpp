@@ -35,6 +35,7 @@ JointCoordinate JointCoordinate::first_angle(const Vector3d& arm_F, const Vector
                                              const Eigen::Matrix3d& R_FM_placed) {
   JointCoordinate out;
   out.kind_ = Kind::angle;
+  out.is_angle_ = true;
   out.axis_F_ = arm_F;
   out.x_F_ = other_F;
   out.x_M_ = R_FM_placed.transpose() * other_F;
@@ -45,6 +46,7 @@ JointCoordinate JointCoordinate::second_angle(const Vector3d& arm_F, const Vecto
                                               const Eigen::Matrix3d& R_FM_placed) {
   JointCoordinate out;
   out.kind_ = Kind::second_angle;
+  out.is_angle_ = true;
   out.axis_F_ = other_F;
   out.axis_M_ = R_FM_placed.transpose() * other_F;
   out.x_F_ = arm_F;
@@ -73,6 +75,15 @@ JointCoordinate JointCoordinate::gap(std::shared_ptr<const GapLaw> law) {
   return out;
 }
 
+JointCoordinate JointCoordinate::measured(std::shared_ptr<const CoordinateMeasure> measure) {
+  JointCoordinate out;
+  out.kind_ = Kind::measured;
+  out.is_angle_ = measure->is_angle();
+  out.axis_F_.setZero();
+  out.measure_ = std::move(measure);
+  return out;
+}
+
 namespace {
 /// Direction from F to M; any where they coincide.
 Vector3d line_of(const MarkerMotion& F, const MarkerMotion& M) {
@@ -82,7 +93,9 @@ Vector3d line_of(const MarkerMotion& F, const MarkerMotion& M) {
 }
 }  // namespace
 
-double JointCoordinate::fraction(const MarkerMotion& F, const MarkerMotion& M) const {
+double JointCoordinate::fraction(const MarkerMotion& F, const MarkerMotion& M,
+                                 const CountedValue* before) const {
+  if (kind_ == Kind::measured) return measure_->look(F, M, before).fraction;
   if (kind_ == Kind::length) return (M.p - F.p).norm();
   if (kind_ == Kind::gap) return gap_->gap(F, M);
   const Vector3d axis =
@@ -93,7 +106,9 @@ double JointCoordinate::fraction(const MarkerMotion& F, const MarkerMotion& M) c
   return std::atan2(axis.cross(x).dot(moved), x.dot(moved));
 }
 
-spatial::PairRow JointCoordinate::derivatives(const MarkerMotion& F, const MarkerMotion& M) const {
+spatial::PairRow JointCoordinate::derivatives(const MarkerMotion& F, const MarkerMotion& M,
+                                              const CountedValue* before) const {
+  if (kind_ == Kind::measured) return measure_->look(F, M, before).J;
   spatial::PairRow J = spatial::PairRow::Zero();
   if (kind_ == Kind::length) {
     const Vector3d n = line_of(F, M);
@@ -115,13 +130,14 @@ spatial::PairRow JointCoordinate::derivatives(const MarkerMotion& F, const Marke
   return J;
 }
 
-CoordinateLook JointCoordinate::look(const MarkerMotion& F, const MarkerMotion& M) const {
+CoordinateLook JointCoordinate::look(const MarkerMotion& F, const MarkerMotion& M,
+                                     const CountedValue* before) const {
   CoordinateLook out;
-  if (kind_ == Kind::length || kind_ == Kind::gap) {
+  if (kind_ > Kind::second_angle) {  // one question for what has an axis, of which there is most
+    if (kind_ == Kind::measured) return measure_->look(F, M, before);
     out.fraction = fraction(F, M);
     out.J = derivatives(F, M);
-    out.rate = out.J.segment<3>(0).dot(F.w) + out.J.segment<3>(3).dot(F.v) +
-               out.J.segment<3>(6).dot(M.w) + out.J.segment<3>(9).dot(M.v);
+    out.take_rate(F, M);
     return out;
   }
   const Vector3d axis =
@@ -146,8 +162,9 @@ CoordinateLook JointCoordinate::look(const MarkerMotion& F, const MarkerMotion& 
 }
 
 double JointCoordinate::bias(const MarkerMotion& F, const MarkerMotion& M,
-                             const spatial::MarkerBias& bias_F,
-                             const spatial::MarkerBias& bias_M) const {
+                             const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M,
+                             const CountedValue* before) const {
+  if (kind_ == Kind::measured) return measure_->bias(F, M, bias_F, bias_M, before);
   if (kind_ == Kind::length) {
     const Vector3d n = line_of(F, M);
     const Vector3d r_dot = M.v - F.v;

@@ -3,35 +3,19 @@
 
 #include <memory>
 
-#include "buckens/spatial/marker_motion.h"
+#include "buckens/joints/coordinate_measure.h"
 
 namespace buckens::joints {
 
 class GapLaw;
 
-/// A coordinate with its whole turns stored separately, so that no digits are lost after many.
-struct CountedValue {
-  int turns = 0;        ///< of an angle; 0 of a displacement
-  double fraction = 0;  ///< angle within the turn, −π … π [rad], or displacement [m]
-
-  /// The whole angle [rad] or displacement [m].
-  double value() const;
-};
-
-/// A coordinate at one instant.
-struct CoordinateLook {
-  double fraction = 0;  ///< as JointCoordinate::fraction()
-  double rate = 0;      ///< J V
-  spatial::PairRow J = spatial::PairRow::Zero();
-};
-
 /// Angle or displacement of marker M relative to marker F about or along an axis fixed in F, both
-/// zero as placed; the length of the line between them; or the gap between M and a curve fixed in
-/// F. The axis is also fixed in M if a joint ensures that. The second angle, of a cross joint, is
-/// that about an axis fixed in M.
+/// zero as placed; the length of the line between them; the gap between M and a curve fixed in F;
+/// or what a CoordinateMeasure measures. The axis is also fixed in M if a joint ensures that. The
+/// second angle, of a cross joint, is that about an axis fixed in M.
 class JointCoordinate {
  public:
-  enum class Kind { angle, displacement, second_angle, length, gap };
+  enum class Kind { angle, displacement, second_angle, length, gap, measured };
 
   /// @param axis_F unit vector in F, @param R_FM_placed orientation of M in F as placed
   static JointCoordinate angle(const Eigen::Vector3d& axis_F, const Eigen::Matrix3d& R_FM_placed);
@@ -52,24 +36,30 @@ class JointCoordinate {
   static JointCoordinate length();
   /// Zero where the curve is touched, positive on the free side of it.
   static JointCoordinate gap(std::shared_ptr<const GapLaw> law);
+  static JointCoordinate measured(std::shared_ptr<const CoordinateMeasure> measure);
 
   Kind kind() const { return kind_; }
   /// Whether it is an angle [rad], and no length [m].
-  bool is_angle() const { return kind_ == Kind::angle || kind_ == Kind::second_angle; }
-  /// In F; of a second angle, where M holds it, as placed.
+  bool is_angle() const { return is_angle_; }
+  /// In F; of a second angle, where M holds it, as placed; zero of what has no axis.
   const Eigen::Vector3d& axis() const { return axis_F_; }
 
+  // Of measured coordinates, `before` says where they were a step before; null: not known.
+
   /// Angle within the turn [rad], displacement, length or gap [m].
-  double fraction(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M) const;
+  double fraction(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+                  const CountedValue* before = nullptr) const;
   /// J: the rate of the coordinate is J V.
-  spatial::PairRow derivatives(const spatial::MarkerMotion& F,
-                               const spatial::MarkerMotion& M) const;
+  spatial::PairRow derivatives(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+                               const CountedValue* before = nullptr) const;
   /// Both with the rate, for less than one after the other.
-  CoordinateLook look(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M) const;
+  CoordinateLook look(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+                      const CountedValue* before = nullptr) const;
   /// Part of the coordinate's acceleration that does not come from those of the bodies'
   /// coordinates.
   double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
-              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M) const;
+              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M,
+              const CountedValue* before = nullptr) const;
   /// The law of a gap, else null.
   const GapLaw* gap_law() const { return gap_.get(); }
   /// The counted value closest to `before`.
@@ -83,12 +73,14 @@ class JointCoordinate {
   }
 
   Kind kind_ = Kind::displacement;
+  bool is_angle_ = false;
   Eigen::Vector3d axis_F_ = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d x_F_ = Eigen::Vector3d::UnitX();     // of an angle: perpendicular to the axis
   Eigen::Vector3d x_M_ = Eigen::Vector3d::UnitX();     // its image in M as placed
   Eigen::Vector3d axis_M_ = Eigen::Vector3d::UnitZ();  // of a second angle
   double offset_ = 0;                                  // of a displacement [m]
   std::shared_ptr<const GapLaw> gap_;                  // of a gap
+  std::shared_ptr<const CoordinateMeasure> measure_;   // of what is measured
 };
 
 /// The counted angle that is reached from `before` on the shorter way.

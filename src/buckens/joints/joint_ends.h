@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "buckens/base/coordinate_choice.h"
 #include "buckens/base/field.h"
 #include "buckens/base/marker_ref.h"
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 
@@ -11,6 +12,7 @@
 #include "buckens/base/characteristic.h"
 #include "buckens/base/motion_dimensions.h"
 #include "buckens/base/signal_law.h"
+#include "buckens/joints/coordinate_drive_spec.h"
 #include "buckens/joints/coupler_spec.h"
 #include "buckens/joints/coupling_specs.h"
 #include "buckens/joints/drive_laws.h"
@@ -25,7 +27,7 @@ namespace buckens::joints {
 struct RevoluteSpec : JointEndsAndAxis {
   static constexpr const char* kKey = "revolute";
   static constexpr const char* kDoc = "hinge: only rotation about the axis is free";
-  static constexpr bool kTurns = true;
+  static constexpr std::array kCoordinates{base::CoordinateChoice::angle};
   template <class Visitor>
   void fields(Visitor& visit) {
     axis_fields(visit);
@@ -34,17 +36,35 @@ struct RevoluteSpec : JointEndsAndAxis {
 
 struct SphericalSpec : JointEnds {
   static constexpr const char* kKey = "spherical";
-  static constexpr const char* kDoc = "ball joint: all rotations are free";
+  static constexpr const char* kDoc =
+      "ball joint: all rotations are free; its coordinates are the `swing`, the angle between an "
+      "axis that the first body holds and one that the second holds, which has no direction where "
+      "it is 0 (a spring on it should be free of torque there), and the `twist` of the second body "
+      "about its axis beside the shortest turn from the one to the other";
+  static constexpr std::array kCoordinates{base::CoordinateChoice::swing,
+                                           base::CoordinateChoice::twist};
+  std::optional<Eigen::Vector3d> held_axis;   ///< in the first marker
+  std::optional<Eigen::Vector3d> moved_axis;  ///< in the first marker, as placed
   template <class Visitor>
   void fields(Visitor& visit) {
     end_fields(visit);
+    visit(base::field("axis", held_axis,
+                      "of `swing` and `twist`: the axis that the first body holds, in the first "
+                      "marker's axes")
+              .like("[0, 0, 1]")
+              .otherwise("the first marker's z axis"));
+    visit(base::field("second-axis", moved_axis,
+                      "of `swing` and `twist`: the axis that the second body holds, as placed, in "
+                      "the first marker's axes")
+              .like("[0, 1, 2]")
+              .otherwise("that of `axis`"));
   }
 };
 
 struct PrismaticSpec : JointEnds {
   static constexpr const char* kKey = "prismatic";
   static constexpr const char* kDoc = "slider: only translation along the axis is free";
-  static constexpr bool kSlides = true;
+  static constexpr std::array kCoordinates{base::CoordinateChoice::displacement};
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< in the first marker
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -75,6 +95,8 @@ struct BushingSpec : JointEnds {
   static constexpr const char* kDoc =
       "elastic connection with stiffness and damping along and "
       "about the three axes of the first marker";
+  static constexpr const char* kInstead =
+      "its springs are fields of its own; observe its motion by `relative`";
   Eigen::Vector3d stiffness = Eigen::Vector3d::Zero();             ///< [N/m]
   Eigen::Vector3d rotational_stiffness = Eigen::Vector3d::Zero();  ///< [N m/rad]
   Eigen::Vector3d damping = Eigen::Vector3d::Zero();               ///< [N s/m]
@@ -135,7 +157,7 @@ struct PrescribedRotationSpec : JointEndsAndAxis {
       "drives the rotation about the axis; add a joint for the other directions. Between the "
       "markers of a universal joint, about the arm that the first of them holds, it drives the "
       "angle of that arm";
-  static constexpr bool kTurns = true;
+  static constexpr std::array kCoordinates{base::CoordinateChoice::angle};
   // Exactly one of the three is given.
   std::optional<base::SignalLaw> angle;         ///< counted from the position as placed [rad]
   std::optional<base::SignalLaw> speed;         ///< [rad/s]; the angle is its integral from t = 0
@@ -176,7 +198,7 @@ struct PrescribedTranslationSpec : JointEnds {
   static constexpr const char* kKey = "prescribed-translation";
   static constexpr const char* kDoc =
       "drives the displacement along the axis; add a joint for the other directions";
-  static constexpr bool kSlides = true;
+  static constexpr std::array kCoordinates{base::CoordinateChoice::displacement};
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< in the first marker
   // Exactly one of the three is given.
   std::optional<base::SignalLaw> displacement;  ///< counted from the position as placed [m]
@@ -223,36 +245,51 @@ struct JointSpec {
                PrescribedRotationSpec, PrescribedTranslationSpec, CylindricalSpec, PlanarJointSpec,
                UniversalSpec, ConstantVelocitySpec, PointOnLineSpec, PointInPlaneSpec, ParallelSpec,
                OrientationSpec, DistanceSpec, ScrewSpec, GearSpec, RackSpec, BeltSpec, SlotSpec,
-               CouplerSpec, SliderOnBeamSpec, RollingSpec>
+               CouplerSpec, SliderOnBeamSpec, RollingSpec, PrescribedCoordinateSpec>
       kind;
 
   /// Key of the kind in the model file.
   const char* kind_name() const {
     return std::visit([]<class T>(const T&) { return T::kKey; }, kind);
   }
-  /// Whether the joint has an angle about its axis as a coordinate.
-  bool turns() const {
+  /// The coordinates of the joint, in order.
+  std::span<const base::CoordinateChoice> coordinates() const {
     return std::visit(
-        []<class T>(const T&) {
-          return requires { T::kTurns; };
+        []<class T>(const T&) -> std::span<const base::CoordinateChoice> {
+          if constexpr (requires { T::kCoordinates; }) return T::kCoordinates;
+          return {};
         },
         kind);
   }
-  /// Whether it has a second angle, about an arm that the second marker holds.
-  bool turns_twice() const {
+  /// Of a kind without coordinates, what to use instead; else null.
+  const char* instead() const {
     return std::visit(
-        []<class T>(const T&) {
-          return requires { T::kTurnsTwice; };
+        []<class T>(const T&) -> const char* {
+          if constexpr (requires { T::kInstead; }) return T::kInstead;
+          return nullptr;
         },
         kind);
   }
-  /// Whether it has a displacement along its axis as a coordinate.
-  bool slides() const {
+  /// What drives it; nothing drives most kinds.
+  DriveLaws laws() const {
+    static const std::optional<base::SignalLaw> kNone;
     return std::visit(
-        []<class T>(const T&) {
-          return requires { T::kSlides; };
+        []<class T>(const T& spec) -> DriveLaws {
+          if constexpr (requires { spec.laws(); }) return spec.laws();
+          return {kNone, kNone, kNone};
         },
         kind);
+  }
+  /// Whether what drives it is an angle.
+  bool drives_angle() const {
+    if (const auto* drive = std::get_if<PrescribedCoordinateSpec>(&kind)) {
+      return drive->drives_angle();
+    }
+    return std::holds_alternative<PrescribedRotationSpec>(kind);
+  }
+  /// Whether it has a coordinate.
+  bool has(base::CoordinateChoice which) const {
+    return base::meant(coordinates(), which, base::CoordinateSort::any).has_value();
   }
 
   template <class Visitor>

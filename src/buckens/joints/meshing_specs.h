@@ -33,6 +33,8 @@ struct GearSpec : JointEndsAndAxis, ToothAngles {
   static constexpr const char* kDoc =
       "two gears with parallel axes, markers at their centres; whatever carries the centres, fixed "
       "or turning, feels the whole force between the teeth";
+  static constexpr const char* kInstead =
+      "a gear couples the angles of two joints; name the joint on which one of the gears turns";
   std::array<double, 2> teeth{0, 0};
   bool internal = false;
 
@@ -55,6 +57,9 @@ struct RackSpec : JointEndsAndAxis, ToothAngles {
   static constexpr const char* kKey = "rack";
   static constexpr const char* kDoc =
       "a toothed rack, which is the first body, and its pinion with the marker at its centre";
+  static constexpr const char* kInstead =
+      "a rack couples the coordinates of two joints; name that on which the pinion turns, or that "
+      "on which the rack slides";
   Eigen::Vector3d along = Eigen::Vector3d::Zero();  ///< in the first marker
   double radius = 0;                                ///< [m]
 
@@ -80,6 +85,8 @@ struct BeltSpec : JointEndsAndAxis {
   static constexpr const char* kDoc =
       "belt or chain over two pulleys with parallel axes, markers at their centres; it neither "
       "slips nor stretches, and its tension is not looked at";
+  static constexpr const char* kInstead =
+      "a belt couples the angles of two joints; name the joint on which one of the pulleys turns";
   std::array<double, 2> radii{0, 0};  ///< [m]
   bool crossed = false;
 

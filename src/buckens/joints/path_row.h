@@ -25,6 +25,7 @@ class PathRow final : public RowLaw {
           int number);
 
   const SpaceCurve& curve() const { return *curve_; }
+  const std::shared_ptr<const SpaceCurve>& shared_curve() const { return curve_; }
   /// Unit normal of a plane curve; zero in space.
   const Eigen::Vector3d& across() const { return across_; }
 

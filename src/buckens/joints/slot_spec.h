@@ -12,7 +12,10 @@ struct SlotSpec : JointEnds, base::PathSpec {
   static constexpr const char* kKey = "slot";
   static constexpr const char* kDoc =
       "a point on a curve that is fixed in the first body: a pin in a slot, the centre of a roller "
-      "on a cam with its counter cam, a bead on a bent wire; all rotations are free";
+      "on a cam with its counter cam, a bead on a bent wire; all rotations are free; its "
+      "coordinate "
+      "is the displacement along the curve, from as placed, over laps of a closed one";
+  static constexpr std::array kCoordinates{base::CoordinateChoice::displacement};
   std::optional<Eigen::Vector3d> normal;  ///< in the first marker
 
   template <class Visitor>

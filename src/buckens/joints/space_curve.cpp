@@ -60,6 +60,8 @@ SpaceCurve::SpaceCurve(const std::vector<Vector3d>& points, bool is_closed)
     for (int k = 0; k < 3; ++k) values[static_cast<std::size_t>(k)].push_back(point(i)[k]);
   }
   for (double& value : s) value -= first;
+  knots_.assign(s.begin() + before,
+                s.begin() + before + static_cast<long>(count) + (is_closed ? 1 : 0));
   for (std::size_t k = 0; k < 3; ++k) {
     laws_[k] =
         base::TimeLaw::table(s, values[k], base::Interpolation::spline, base::Extrapolation::hold);
@@ -71,6 +73,8 @@ SpaceCurve::SpaceCurve(const CurvePieces& pieces, bool is_closed)
     : pieces_(pieces), length_(pieces.length()), is_closed_(is_closed) {
   if (is_closed) pieces_.require_closed();
   for (const CurvePieces::Piece& piece : pieces_.all()) {
+    if (knots_.empty()) knots_.push_back(piece.from);
+    knots_.push_back(piece.to);
     const double turn = piece.radius > 0.0 ? (piece.to - piece.from) / piece.radius : 0.0;
     sample(piece.from, piece.to, kSamplesPerPoint * (1 + static_cast<int>(turn)));
   }

@@ -31,6 +31,8 @@ class SpaceCurve {
   Point at(double s) const;
 
   double length() const { return length_; }
+  /// Parameters from 0 to length() between which the curve is smooth to any order.
+  const std::vector<double>& knots() const { return knots_; }
   bool is_closed() const { return is_closed_; }
 
   /// The parameter of the nearest point, sought from a guess by Newton's method.
@@ -48,6 +50,7 @@ class SpaceCurve {
   CurvePieces pieces_;
   double length_ = 0;
   bool is_closed_ = false;
+  std::vector<double> knots_;
   std::vector<double> sampled_;
   std::vector<Eigen::Vector3d> places_;
 };

@@ -17,7 +17,7 @@ struct SliderOnBeamSpec : JointEnds {
   static constexpr const char* kKey = "slider-on-beam";
   static constexpr const char* kDoc =
       "a point that slides along a flexible beam, deformed as it is; all rotations are free";
-  static constexpr bool kSlides = true;
+  static constexpr std::array kCoordinates{base::CoordinateChoice::displacement};
   std::optional<std::string> from, to;          ///< nodes of the beam
   std::optional<base::SignalLaw> displacement;  ///< along the beam, from as placed [m]
   std::optional<base::SignalLaw> velocity;      ///< [m/s]
@@ -69,6 +69,9 @@ struct RollingSpec : JointEnds {
   static constexpr const char* kDoc =
       "a wheel that rolls on a plane without slip; the plane goes through the first marker, the "
       "second is the wheel's centre";
+  static constexpr const char* kInstead =
+      "how far a wheel has rolled depends on its way; name the joint of its axle, whose angle "
+      "counts turns, or integrate the speed of its centre by a signal";
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of the plane, in the first marker
   std::optional<Eigen::Vector3d> axle;               ///< of the wheel, in the second marker
   double wheel_radius = 0;                           ///< [m]

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "buckens/base/characteristic.h"
+#include "buckens/base/coordinate_choice.h"
 #include "buckens/base/field.h"
 
 namespace buckens::loads {
@@ -13,27 +14,28 @@ namespace buckens::loads {
 // Laws on the coordinate of a joint: its angle, including whole turns, or its displacement. Both
 // are zero as placed.
 
-/// Which angle, of joints that turn about two axes.
-enum class AngleChoice { angle, second_angle };
-
-constexpr std::array<const char*, 2> choice_names(AngleChoice) { return {"angle", "second-angle"}; }
-
 /// What all of them have in common.
 struct JointLaw {
   std::string joint;
-  AngleChoice which = AngleChoice::angle;
+  std::optional<base::CoordinateChoice> which;
 
   template <class Visitor>
   void joint_fields(Visitor& visit, bool turns) {
     visit(base::field("joint", joint,
-                      turns ? "name of a joint that rotates about an axis"
-                            : "name of a joint that slides along an axis")
+                      turns ? "name of a joint with an angle: one that rotates about an axis, or "
+                              "swings and twists"
+                            : "name of a joint with a displacement: one that slides along an axis "
+                              "or a curve, or in a plane")
               .required()
               .like(turns ? "hinge" : "slide"));
-    if (!turns) return;
     visit(base::field("which", which,
-                      "of universal joints: `angle` about the arm that the first body holds, or "
-                      "`second-angle` about that of the second"));
+                      turns ? "of universal joints: `angle` about the arm that the first body "
+                              "holds, or `second-angle` about that of the second; of ball joints: "
+                              "`swing` or `twist`"
+                            : "of planes and free translations: `x`, `y` or `z`")
+              .like(turns ? "second-angle" : "y")
+              .otherwise(turns ? "`angle`, or the only angle of the joint"
+                               : "`displacement`, or the only displacement of the joint"));
   }
 };
 

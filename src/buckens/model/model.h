@@ -12,6 +12,7 @@
 #include "buckens/joints/coordinate_term.h"
 #include "buckens/joints/joint.h"
 #include "buckens/joints/joint_coordinate.h"
+#include "buckens/joints/named_coordinate.h"
 #include "buckens/loads/force_element.h"
 #include "buckens/model/marker_id.h"
 #include "buckens/model/signal.h"
@@ -49,10 +50,12 @@ struct Joint {
   /// Of a universal joint: the arm that the second body holds, as placed, unit vector in F.
   Eigen::Vector3d arm_F = Eigen::Vector3d::Zero();
   std::vector<joints::ConstraintRow> rows;
+  /// What it offers to laws, drives, sensors and signals; those in use are in Model::coordinates.
+  std::vector<joints::NamedCoordinate> coordinates;
   int first_row = 0;    ///< of λ
   int first_state = 0;  ///< of its rows in RowMemory::rows
-  /// Of a coupler, which has one row between the markers of all these coordinates; those of the
-  /// first are the joint's own. Empty of all other joints.
+  /// Of a coupler or a drive of a coordinate, which has one row between the markers of all these
+  /// coordinates; those of the first are the joint's own. Empty of all other joints.
   std::vector<CoupledCoordinate> coupled;
   /// Of a slider on a beam: its first body is where the second marker is at the time. Null of all
   /// other joints.
@@ -65,11 +68,12 @@ struct Joint {
   bool is_tie = false;
 };
 
-/// A coordinate between two markers that a force law, a coupler or a sensor needs.
+/// A coordinate between two markers that a force law, a coupler, a drive or a sensor needs.
 struct Coordinate {
   int joint = -1;  ///< index into Model::joints of the joint that it belongs to, −1: none
   MarkerId first, second;
   joints::JointCoordinate law;
+  base::CoordinateChoice which = base::CoordinateChoice::displacement;  ///< of those of the joint
 };
 
 /// A joint that is driven by a signal.

@@ -95,8 +95,12 @@ constexpr std::array<Wish, 58> kWishes = {{
     {"rigid", "joints", "a rigid connection is called `fixed` here"},
     {"motor", "joints",
      "a motor is a load `hinge-motor` or `slide-motor` here, or a `prescribed-rotation`"},
-    {"actuator", "joints", "a drive is a `prescribed-rotation` or `prescribed-translation` here"},
-    {"motion", "joints", "a drive is a `prescribed-rotation` or `prescribed-translation` here"},
+    {"actuator", "joints",
+     "a drive is a `prescribed-rotation` or `prescribed-translation` here, or a "
+     "`prescribed-coordinate`"},
+    {"motion", "joints",
+     "a drive is a `prescribed-rotation` or `prescribed-translation` here, or a "
+     "`prescribed-coordinate`"},
     {"spring", "", "springs are the loads `spring-damper` and `torsional-spring`, or a `bushing`"},
     {"damper", "", "dampers are the loads `spring-damper` and `torsional-spring` with `damping`"},
     {"moment", "loads", "a moment is called `torque` here"},

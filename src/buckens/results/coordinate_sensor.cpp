@@ -36,14 +36,15 @@ std::unique_ptr<Sensor> make_coordinate_sensor(const model::BuiltModel& built,
   const model::Coordinate& seen = built.model.coordinates[coordinate];
   const std::string& joint = built.model.joints[static_cast<std::size_t>(seen.joint)].name;
   const bool is_angle = seen.law.is_angle();
-  const bool is_second = seen.law.kind() == joints::JointCoordinate::Kind::second_angle;
-  const char* what = is_second ? "second angle" : is_angle ? "angle" : "displacement";
+  const char* what = base::name_of(seen.which).text;
+  const bool is_swing = seen.which == base::CoordinateChoice::swing;
   const std::string path = "sensors/" + spec.name;
   return std::make_unique<CoordinateSensor>(
       std::vector<Channel>{{path + ".value",
                             is_angle ? "rad" : "m",
                             {},
-                            fmt::format("{} of joint {} from its position as placed", what, joint),
+                            fmt::format("{} of joint {}{}", what, joint,
+                                        is_swing ? "" : " from its position as placed"),
                             {}},
                            {path + ".rate",
                             is_angle ? "rad/s" : "m/s",

@@ -183,10 +183,10 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
   const std::vector<dynamics::BodyMotion> then = at_impact(motions);
   condense(then, bodies, rows_in_use, around.memory, t);
   for (Touch& touch : touches_) {
-    set_row(laws_[touch.law].load, touch.sign, then, touch);
+    set_row(laws_[touch.law].load, touch.sign, then, around.memory, touch);
     answers_to_.answer(touch);
   }
-  for (std::size_t k = 0; k < touches_.size(); ++k) add_slips(k, then);
+  for (std::size_t k = 0; k < touches_.size(); ++k) add_slips(k, then, around.memory);
   try {
     sum_up(solve());
   } catch (const StepFailure& failure) {
@@ -227,14 +227,15 @@ Vector Impacts::solve() const {
 
 /// Adds the directions in which friction of a stop that is reached acts.
 /// @param then motions there, with the velocities of the end of the step
-void Impacts::add_slips(std::size_t index, const std::vector<dynamics::BodyMotion>& then) {
+void Impacts::add_slips(std::size_t index, const std::vector<dynamics::BodyMotion>& then,
+                        const model::RowMemory* memory) {
   const Touch& touch = touches_[index];
   const std::vector<Friction>& frictions = laws_[touch.law].frictions;
   for (std::size_t k = 0; k < frictions.size(); ++k) {
     Slip slip;
     slip.touch = index;
     slip.friction = k;
-    set_row(frictions[k].load, 1.0, then, slip);
+    set_row(frictions[k].load, 1.0, then, memory, slip);
     const double end = rate_of(slip.row, then);
     slip.at_impact = end + touch.since / scheme_.h * (rate_of(slip.row, start_) - end);
     slip.speed = touch.stays ? end : slip.at_impact;
@@ -294,14 +295,16 @@ std::vector<dynamics::BodyMotion> Impacts::at_impact(std::vector<dynamics::BodyM
 }
 
 void Impacts::set_row(std::size_t index, double sign,
-                      const std::vector<dynamics::BodyMotion>& motions, Push& push) const {
+                      const std::vector<dynamics::BodyMotion>& motions,
+                      const model::RowMemory* memory, Push& push) const {
   const model::Load& load = model_.loads[index];
+  const auto coordinate = static_cast<std::size_t>(load.coordinate);
   const auto first = dynamics::evaluate_marker(model_, load.first, motions);
   const auto second = dynamics::evaluate_marker(model_, load.second, motions);
-  const joints::JointCoordinate& law =
-      model_.coordinates[static_cast<std::size_t>(load.coordinate)].law;
-  push.row = dynamics::system_row(model_, load.first, first, load.second, second,
-                                  law.derivatives(first.motion, second.motion));
+  const joints::JointCoordinate& law = model_.coordinates[coordinate].law;
+  push.row = dynamics::system_row(
+      model_, load.first, first, load.second, second,
+      law.derivatives(first.motion, second.motion, dynamics::before_of(memory, coordinate)));
   for (dynamics::BodyRow* part : {&push.row.first, &push.row.second}) {
     part->frame *= sign;
     part->interface *= sign;

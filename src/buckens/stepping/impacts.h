@@ -108,8 +108,9 @@ class Impacts {
   /// Where the bodies were at the strongest of the impacts.
   std::vector<dynamics::BodyMotion> at_impact(std::vector<dynamics::BodyMotion> motions);
   void set_row(std::size_t load, double sign, const std::vector<dynamics::BodyMotion>& motions,
-               Push& push) const;
-  void add_slips(std::size_t touch, const std::vector<dynamics::BodyMotion>& then);
+               const model::RowMemory* memory, Push& push) const;
+  void add_slips(std::size_t touch, const std::vector<dynamics::BodyMotion>& then,
+                 const model::RowMemory* memory);
   const Friction& friction_of(const Slip& slip) const {
     return laws_[touches_[slip.touch].law].frictions[slip.friction];
   }

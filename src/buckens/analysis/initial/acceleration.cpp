@@ -134,9 +134,11 @@ class Accelerations {
   double bias_of(const model::Load& load, const std::vector<dynamics::BodyMotion>& motions) const {
     const auto first = dynamics::evaluate_marker(model_, load.first, motions);
     const auto second = dynamics::evaluate_marker(model_, load.second, motions);
-    return model_.coordinates[static_cast<std::size_t>(load.coordinate)].law.bias(
+    const auto coordinate = static_cast<std::size_t>(load.coordinate);
+    return model_.coordinates[coordinate].law.bias(
         first.motion, second.motion, dynamics::evaluate_bias(model_, load.first, motions),
-        dynamics::evaluate_bias(model_, load.second, motions));
+        dynamics::evaluate_bias(model_, load.second, motions),
+        dynamics::before_of(&state_.memory, coordinate));
   }
 
   /// M⁻¹ of a load; zero if deformation has no rates.

@@ -28,7 +28,8 @@ struct OpenJoint {
 
   bool is_drive() const {
     return joint->type == joints::JointType::prescribed_rotation ||
-           joint->type == joints::JointType::prescribed_translation;
+           joint->type == joints::JointType::prescribed_translation ||
+           joint->type == joints::JointType::prescribed_coordinate;
   }
   double size(double length) const { return std::max(gap / length, angle); }
 };

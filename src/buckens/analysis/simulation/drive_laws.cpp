@@ -40,13 +40,7 @@ bool grows(const base::TimeLaw& law, double duration, int order) {
 
 DriveLaws::DriveLaws(const model::ModelDescription& description) {
   for (const joints::JointSpec& joint : description.joints) {
-    if (const auto* turn = std::get_if<joints::PrescribedRotationSpec>(&joint.kind)) {
-      take(turn->laws(), joint, "rad");
-    } else if (const auto* push = std::get_if<joints::PrescribedTranslationSpec>(&joint.kind)) {
-      take(push->laws(), joint, "m");
-    } else if (const auto* slide = std::get_if<joints::SliderOnBeamSpec>(&joint.kind)) {
-      if (slide->is_driven()) take(slide->laws(), joint, "m");
-    }
+    if (joint.laws().num_given() > 0) take(joint.laws(), joint, joint.drives_angle() ? "rad" : "m");
   }
 }
 

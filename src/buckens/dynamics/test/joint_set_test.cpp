@@ -12,6 +12,7 @@
 #include "buckens/dynamics/row_blocks.h"
 #include "buckens/dynamics/test/example_models.h"
 #include "buckens/fem/mesh/box_mesh.h"
+#include "buckens/joints/swing_twist.h"
 #include "buckens/loads/ball_friction.h"
 #include "buckens/loads/joint_friction.h"
 #include "buckens/spatial/rotation.h"
@@ -67,6 +68,8 @@ model::Model all_joints() {
                  {m.add_coordinate(3, Kind::displacement), curve},
                  {m.add_coordinate(5, Kind::displacement), {-1.3, std::nullopt}}});
   m.add_joint(JointType::spherical, test::Mechanism::ground({0.1, 0, 0}), on_rigid);  // behind it
+  const auto swing = std::make_shared<joints::Swing>(Vector3d::UnitZ(), Vector3d::UnitX());
+  m.add_coupler({{m.add_coordinate(10, joints::JointCoordinate::measured(swing)), {}}}, way);
   return m.take();
 }
 

@@ -140,14 +140,22 @@ class Mechanism {
     return static_cast<int>(model_.coordinates.size()) - 1;
   }
 
-  void add_coupler(const std::vector<model::CoupledCoordinate>& coupled) {
+  /// Any coordinate between the markers of a joint. @return its index
+  int add_coordinate(int joint, joints::JointCoordinate law) {
+    const model::Joint& owner = model_.joints[static_cast<std::size_t>(joint)];
+    model_.coordinates.push_back({joint, owner.first, owner.second, std::move(law)});
+    return static_cast<int>(model_.coordinates.size()) - 1;
+  }
+
+  /// @param law of the sum, zero if absent
+  void add_coupler(const std::vector<model::CoupledCoordinate>& coupled,
+                   std::optional<base::TimeLaw> law = std::nullopt) {
     const model::Coordinate& front =
         model_.coordinates[static_cast<std::size_t>(coupled.front().coordinate)];
     model::Joint joint = model_.joints[static_cast<std::size_t>(front.joint)];
     joint.name = "j" + std::to_string(model_.joints.size());
     joint.type = joints::JointType::coupler;
-    joint.rows = {joints::ConstraintRow::coupled(front.law.kind() ==
-                                                 joints::JointCoordinate::Kind::displacement)};
+    joint.rows = {joints::ConstraintRow::coupled(!front.law.is_angle(), std::move(law))};
     joint.first_row = model_.num_constraint_rows();
     joint.first_state = model_.num_row_states();
     joint.coupled = coupled;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Joint rows, forces and their condensation over whole mechanisms.
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include "buckens/dynamics/mass_metric.h"
 #include "buckens/dynamics/multiplier_condensation.h"
 #include "buckens/dynamics/test/example_models.h"
+#include "buckens/joints/swing_twist.h"
 #include "buckens/spatial/test/marker_path.h"
 
 namespace buckens::dynamics {
@@ -105,6 +107,41 @@ TEST(SystemRows, BiasIsTheAccelerationWithoutThatOfTheCoordinates) {
   const Vector bias = constraint_bias(model, path.start, kTime);
   // Rounding ε/h² = 1e-7 beside accelerations of 150² = 2e4.
   EXPECT_LE((bias - expected).norm(), 1e-8 * expected.norm());
+}
+
+/// Two rods on a ball joint whose swing and twist follow laws of time.
+model::Model driven_ball() {
+  test::Mechanism m;
+  const Eigen::Quaterniond turned = spatial::exp_rotation(Vector3d(0.3, -0.4, 0.7));
+  const int upper = test::add_rod(m, 1.0, 1.0, {{0.5, 0, 0}, Eigen::Quaterniond::Identity()});
+  const int lower = test::add_rod(m, 1.0, 1.0, {{1.5, 0, 0}, turned});
+  m.add_joint(joints::JointType::spherical, m.rigid_marker(upper, {0.5, 0, 0}),
+              m.rigid_marker(lower, {-0.5, 0, 0}));
+  const Vector3d x = Vector3d::UnitX();
+  const auto law = [](const char* formula) {
+    return base::TimeLaw::expression(base::Expression(formula, {"t"}, {}, {}));
+  };
+  const auto swing = std::make_shared<joints::Swing>(x, x);
+  const auto twist = std::make_shared<joints::Twist>(x, x, turned.toRotationMatrix());
+  m.add_coupler({{m.add_coordinate(0, joints::JointCoordinate::measured(swing)), {}}},
+                law("0.3 + 20*t^2"));
+  m.add_coupler({{m.add_coordinate(0, joints::JointCoordinate::measured(twist)), {}}},
+                law("sin(30*t)"));
+  return m.take();
+}
+
+TEST(SystemRows, DrivesOfCoordinatesHaveRatesAndBias) {
+  const model::Model model = driven_ball();
+  const Motions path(model);
+  const auto moving = [&](double t) { return residual(model, path.at(t), kTime + t); };
+  Constraints constraints;
+  evaluate_constraints(model, path.start, kTime, constraints);
+  EXPECT_GT(constraints.g_t.tail(2).cwiseAbs().minCoeff(), 0.1);
+  // Rounding ε/h and ε/h², and h⁴ of motions with some 30 rad/s.
+  const Vector rates = test::derivative(moving, 1e-4);
+  EXPECT_LE((constraints.g_dot - rates).norm(), 1e-9 * (1 + rates.norm()));
+  const Vector bias = test::second_derivative(moving, 5e-4);
+  EXPECT_LE((constraint_bias(model, path.start, kTime) - bias).norm(), 1e-7 * (1 + bias.norm()));
 }
 
 TEST(SystemForces, PowerIsLossOfStoredEnergyAndActivePower) {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/joints/joint_coordinate.h"
 
+#include <memory>
+
 #include <gtest/gtest.h>
 
+#include "buckens/joints/swing_twist.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::joints {
@@ -27,7 +30,8 @@ TEST(JointCoordinate, OneLookIsAllOfIt) {
   for (const JointCoordinate& coordinate :
        {JointCoordinate::angle(axis, placed), JointCoordinate::first_angle(axis, other, placed),
         JointCoordinate::second_angle(axis, other, placed),
-        JointCoordinate::displacement(axis, {0.3, 0.2, 0.1}), JointCoordinate::length()}) {
+        JointCoordinate::displacement(axis, {0.3, 0.2, 0.1}), JointCoordinate::length(),
+        JointCoordinate::measured(std::make_shared<Twist>(axis, other, placed))}) {
     const CoordinateLook look = coordinate.look(F, M);
     const int kind = static_cast<int>(coordinate.kind());
     EXPECT_EQ(look.fraction, coordinate.fraction(F, M)) << kind;

@@ -13,32 +13,14 @@ namespace buckens::model {
 
 namespace {
 
-using Kind = joints::JointCoordinate::Kind;
-
-/// The coordinate that is meant: the one asked for, or the only one. What does not exist was found
-/// by the check of the description.
-int coordinate_of(const joints::CouplerTermSpec& term, const joints::JointSpec& spec,
-                  MarkerFinder& find) {
-  if (term.which) {
-    using joints::CoordinateChoice;
-    const Kind kind = *term.which == CoordinateChoice::angle          ? Kind::angle
-                      : *term.which == CoordinateChoice::displacement ? Kind::displacement
-                                                                      : Kind::second_angle;
-    return find_coordinate(term.name, kind, find);
-  }
-  const auto& joints = find.model().joints;
-  const auto owner = std::find_if(joints.begin(), joints.end(), [&](const Joint& joint) {
-    return joint.name == term.name && !joint.is_tie;
-  });
-  if (owner == joints.end()) {
-    throw ModelError(spec.where,
-                     fmt::format("joint \"{}\": there is no joint \"{}\"", spec.name, term.name));
-  }
-  using joints::JointType;
-  const bool slides_only = owner->type == JointType::prismatic ||
-                           owner->type == JointType::prescribed_translation ||
-                           owner->type == JointType::point_on_line;
-  return find_coordinate(term.name, slides_only ? Kind::displacement : Kind::angle, find);
+/// Index of a coordinate that a coupler or a drive takes. What does not exist was found by the
+/// check of the description, but for joints that come later.
+int coordinate_of(const std::string& joint, std::optional<base::CoordinateChoice> which,
+                  base::CoordinateSort sort, const joints::JointSpec& spec, MarkerFinder& find) {
+  const int out = find_coordinate(joint, which, sort, find);
+  if (out >= 0) return out;
+  throw ModelError(spec.where,
+                   fmt::format("joint \"{}\": there is no joint \"{}\"", spec.name, joint));
 }
 
 joints::CoordinateTerm term_of(const joints::CouplerTermSpec& spec, const std::string& owner) {
@@ -55,35 +37,72 @@ joints::CoordinateTerm term_of(const joints::CouplerTermSpec& spec, const std::s
 }  // namespace
 
 bool is_coupler(const joints::JointSpec& spec) {
-  return std::holds_alternative<joints::CouplerSpec>(spec.kind);
+  return std::holds_alternative<joints::CouplerSpec>(spec.kind) ||
+         std::holds_alternative<joints::PrescribedCoordinateSpec>(spec.kind);
 }
 
-void add_coupler(const joints::JointSpec& spec, MarkerFinder& find) {
-  Model& model = find.model();
-  const std::string what = fmt::format("joint \"{}\"", spec.name);
-  Joint coupler;
-  coupler.name = spec.name;
-  coupler.type = joints::JointType::coupler;
-  coupler.where = spec.where;
-  bool is_length = true;
-  for (const joints::CouplerTermSpec& term : std::get<joints::CouplerSpec>(spec.kind).of) {
-    const int index = coordinate_of(term, spec, find);
+namespace {
+
+/// Adds a row over coordinates of other joints.
+class CoupledRow {
+ public:
+  CoupledRow(const joints::JointSpec& spec, joints::JointType type, MarkerFinder& find)
+      : find_(find), what_(fmt::format("joint \"{}\"", spec.name)), where_(spec.where) {
+    joint_.name = spec.name;
+    joint_.type = type;
+    joint_.where = spec.where;
+  }
+
+  void take(int index, joints::CoordinateTerm term) {
+    const Model& model = find_.model();
     const Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(index)];
     const Joint& owner = model.joints[static_cast<std::size_t>(coordinate.joint)];
     const bool turns = coordinate.law.is_angle();
-    find.require_moment(owner.first, what, spec.where);
-    if (turns) find.require_moment(owner.second, what, spec.where);
-    if (coupler.coupled.empty()) {
-      coupler.first = owner.first;
-      coupler.second = owner.second;
-      coupler.axis_F = owner.axis_F;
-      is_length = !turns;
+    find_.require_moment(owner.first, what_, where_);
+    if (turns) find_.require_moment(owner.second, what_, where_);
+    if (joint_.coupled.empty()) {
+      joint_.first = owner.first;
+      joint_.second = owner.second;
+      joint_.axis_F = owner.axis_F;
+      is_length_ = !turns;
     }
-    coupler.coupled.push_back({index, term_of(term, what)});
+    joint_.coupled.push_back({index, std::move(term)});
   }
-  coupler.rows.push_back(joints::ConstraintRow::coupled(is_length));
-  coupler.first_row = model.num_constraint_rows();
-  model.joints.push_back(std::move(coupler));
+
+  /// @param law of the sum, zero if absent
+  void add(std::optional<base::TimeLaw> law) {
+    joint_.rows.push_back(joints::ConstraintRow::coupled(is_length_, std::move(law)));
+    joint_.first_row = find_.model().num_constraint_rows();
+    find_.model().joints.push_back(std::move(joint_));
+  }
+
+  const std::string& what() const { return what_; }
+
+ private:
+  MarkerFinder& find_;
+  std::string what_;
+  SourceLocation where_;
+  Joint joint_;
+  bool is_length_ = true;
+};
+
+}  // namespace
+
+void add_coupler(const joints::JointSpec& spec, MarkerFinder& find) {
+  CoupledRow row(spec, joints::JointType::coupler, find);
+  for (const joints::CouplerTermSpec& term : std::get<joints::CouplerSpec>(spec.kind).of) {
+    row.take(coordinate_of(term.name, term.which, base::CoordinateSort::any, spec, find),
+             term_of(term, row.what()));
+  }
+  row.add(std::nullopt);
+}
+
+void add_coordinate_drive(const joints::JointSpec& spec, MarkerFinder& find) {
+  const auto& drive = std::get<joints::PrescribedCoordinateSpec>(spec.kind);
+  CoupledRow row(spec, joints::JointType::prescribed_coordinate, find);
+  row.take(coordinate_of(drive.joint, drive.which, drive.sort(), spec, find), {});
+  // Those that follow signals get them when these are known, see add_drives().
+  row.add(drive.laws().is_steered() ? base::TimeLaw() : drive.laws().of_time());
 }
 
 }  // namespace buckens::model

@@ -16,18 +16,6 @@ namespace {
 // How often a signal can be differentiated until accelerations, forces or jumps show.
 constexpr int kSmooth = 3;
 
-joints::DriveLaws laws_of(const joints::JointSpec& joint) {
-  static const std::optional<base::SignalLaw> kNone;
-  if (const auto* turn = std::get_if<joints::PrescribedRotationSpec>(&joint.kind)) {
-    return turn->laws();
-  }
-  if (const auto* push = std::get_if<joints::PrescribedTranslationSpec>(&joint.kind)) {
-    return push->laws();
-  }
-  if (const auto* slide = std::get_if<joints::SliderOnBeamSpec>(&joint.kind)) return slide->laws();
-  return {kNone, kNone, kNone};
-}
-
 int add(Signal signal, Model& model) {
   model.signals.all.push_back(std::move(signal));
   return static_cast<int>(model.signals.all.size()) - 1;
@@ -166,8 +154,8 @@ std::vector<int> steering_signals(const Model& model) {
 
 /// @throws ModelError if a drive cannot follow its law
 void require_smooth(const joints::JointSpec& spec, const Smoothness& smoothness) {
-  const joints::DriveLaws laws = laws_of(spec);
-  const bool turns = spec.turns();
+  const joints::DriveLaws laws = spec.laws();
+  const bool turns = spec.drives_angle();
   const auto check = [&](const std::optional<base::SignalLaw>& law, int needed, const char* key,
                          const char* instead) {
     if (!law || smoothness.of(*law) >= needed) return;
@@ -179,14 +167,16 @@ void require_smooth(const joints::JointSpec& spec, const Smoothness& smoothness)
                     spec.name, key, signal.name, what_is(signal), instead));
   };
   check(laws.position, 2, turns ? "angle" : "displacement", turns ? "speed" : "velocity");
-  check(laws.rate, 1, turns ? "speed" : "velocity", "acceleration");
+  const bool is_own = std::holds_alternative<joints::PrescribedCoordinateSpec>(spec.kind);
+  check(laws.rate, 1, turns ? "speed" : "velocity",
+        turns && is_own ? "angular-acceleration" : "acceleration");
 }
 
 }  // namespace
 
 void add_drives(const ModelDescription& description, Model& model) {
   for (const joints::JointSpec& spec : description.joints) {
-    const joints::DriveLaws laws = laws_of(spec);
+    const joints::DriveLaws laws = spec.laws();
     if (!laws.is_steered()) continue;
     Drive drive;
     const auto owner = std::find_if(model.joints.begin(), model.joints.end(),
@@ -212,7 +202,7 @@ void settle_drives(const ModelDescription& description, Model& model) {
   if (model.drives.empty()) return;
   const Smoothness smoothness(model);
   for (const joints::JointSpec& spec : description.joints) {
-    if (laws_of(spec).is_steered()) require_smooth(spec, smoothness);
+    if (spec.laws().is_steered()) require_smooth(spec, smoothness);
   }
   model.signals.steering = steering_signals(model);
   const std::vector<double> values = start_values(model);

@@ -72,6 +72,9 @@ class JointBuilder {
       void operator()(const joints::SliderOnBeamSpec&) { add_slider(spec, b.find_); }
       void operator()(const joints::RollingSpec& k) { b.add_rows(JointType::rolling, k, spec); }
       void operator()(const joints::CouplerSpec&) { add_coupler(spec, b.find_); }
+      void operator()(const joints::PrescribedCoordinateSpec&) {
+        add_coordinate_drive(spec, b.find_);
+      }
     };
     std::visit(Adder{*this, spec}, spec.kind);
   }
@@ -95,6 +98,11 @@ class JointBuilder {
       placement.law = kind.laws().is_steered() ? base::TimeLaw() : kind.laws().of_time();
     }
     if constexpr (requires { kind.second_axis; }) placement.second_axis_F = kind.second_axis;
+    if constexpr (requires { kind.moved_axis; }) {
+      placement.axis_F = kind.held_axis.value_or(Eigen::Vector3d::UnitZ());
+      placement.second_axis_F = kind.moved_axis;
+    }
+    if constexpr (requires { kind.x_axis; }) placement.x_F = kind.x_axis;
     if constexpr (requires { kind.length; }) placement.length = kind.length;
     if constexpr (requires { kind.pitch; }) placement.pitch = kind.pitch;
     place_teeth(kind, placement);
@@ -105,6 +113,7 @@ class JointBuilder {
     try {
       joint.axis_F = joints::unit_axis(placement);
       joint.rows = joints::make_rows(type, placement);
+      joint.coordinates = joints::make_coordinates(type, spec.coordinates(), placement, joint.rows);
       if (type == joints::JointType::universal) joint.arm_F = placement.second_axis_F->normalized();
       if (type == joints::JointType::rolling) joint.axis_F = axle_M(placement);
       if (type == joints::JointType::belt) {

@@ -22,8 +22,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-using Kind = joints::JointCoordinate::Kind;
-
 // Elastic slip before friction breaks away: of the model's length, and as an angle.
 constexpr double kSlip = 1e-6;
 constexpr double kSlipOfHinge = 1e-5;
@@ -79,11 +77,9 @@ class JointLawBuilder {
   template <class Spec>
   void add(const Spec& kind) {
     Model& model = find_.model();
-    const bool is_second = kind.which == loads::AngleChoice::second_angle;
-    const Kind asked = !Spec::kTurns ? Kind::displacement
-                       : is_second   ? Kind::second_angle
-                                     : Kind::angle;
-    const int index = find_coordinate(kind.joint, asked, find_);
+    const int index = find_coordinate(
+        kind.joint, kind.which,
+        Spec::kTurns ? base::CoordinateSort::angles : base::CoordinateSort::displacements, find_);
     if (index < 0) {
       throw ModelError(spec_.where, fmt::format("load \"{}\": there is no joint \"{}\"", spec_.name,
                                                 kind.joint));
@@ -206,39 +202,47 @@ class JointLawBuilder {
   double length_;
 };
 
-joints::JointCoordinate law_of(const Joint& joint, Kind kind, MarkerFinder& find) {
-  using joints::JointCoordinate;
-  const joints::Placement placed = find.placement(joint.first, joint.second);
-  const Matrix3d R_FM = placed.R_WF.transpose() * placed.R_WM;
-  if (joint.type == joints::JointType::universal) {
-    return kind == Kind::second_angle
-               ? JointCoordinate::second_angle(joint.axis_F, joint.arm_F, R_FM)
-               : JointCoordinate::first_angle(joint.axis_F, joint.arm_F, R_FM);
+/// The joint of this name, ties apart; −1 if there is none.
+int find_joint(const Model& model, const std::string& name) {
+  const auto owner = std::find_if(model.joints.begin(), model.joints.end(),
+                                  [&](const Joint& j) { return j.name == name && !j.is_tie; });
+  return owner == model.joints.end() ? -1 : static_cast<int>(owner - model.joints.begin());
+}
+
+/// What the check of the description has let pass: a planar model holds this coordinate.
+[[noreturn]] void refuse_in_plane(const Joint& joint, base::CoordinateChoice which) {
+  std::vector<std::string> others;
+  for (const joints::NamedCoordinate& own : joint.coordinates) {
+    others.push_back(fmt::format("`{}`", base::name_of(own.which).key));
   }
-  return kind == Kind::angle ? JointCoordinate::angle(joint.axis_F, R_FM)
-                             : JointCoordinate::displacement(joint.axis_F, placed.r_F);
+  throw ModelError(
+      joint.where,
+      fmt::format("joint \"{}\" is a {}, which has no `{}` in a planar model; {}, or leave "
+                  "`planar` out",
+                  joint.name, joints::to_string(joint.type), base::name_of(which).key,
+                  others.empty() ? std::string("use a `revolute` joint and its `angle`")
+                                 : fmt::format("it has {}", fmt::join(others, ", "))));
 }
 
 }  // namespace
 
-int find_coordinate(const std::string& joint, Kind kind, MarkerFinder& find) {
+int find_coordinate(const std::string& joint, std::optional<base::CoordinateChoice> asked,
+                    base::CoordinateSort sort, MarkerFinder& find) {
   Model& model = find.model();
-  const auto owner = std::find_if(model.joints.begin(), model.joints.end(),
-                                  [&](const Joint& j) { return j.name == joint && !j.is_tie; });
-  if (owner == model.joints.end()) return -1;
-  const auto index = static_cast<int>(owner - model.joints.begin());
+  const int index = find_joint(model, joint);
+  if (index < 0) return -1;
+  const Joint& owner = model.joints[static_cast<std::size_t>(index)];
+  std::vector<base::CoordinateChoice> offered;
+  for (const joints::NamedCoordinate& own : owner.coordinates) offered.push_back(own.which);
+  const auto which = base::meant(offered, asked, sort);
+  if (!which) refuse_in_plane(owner, asked.value_or(base::CoordinateChoice::angle));
   for (std::size_t k = 0; k < model.coordinates.size(); ++k) {
     const Coordinate& known = model.coordinates[k];
-    if (known.joint == index && known.law.kind() == kind) return static_cast<int>(k);
+    if (known.joint == index && known.which == *which) return static_cast<int>(k);
   }
-  if (owner->track) {
-    // In axes of the point of the beam, whose x axis is its tangent.
-    model.coordinates.push_back(
-        {index, owner->first, owner->second,
-         joints::JointCoordinate::displacement(Vector3d::UnitX(), Vector3d::Zero())});
-    return static_cast<int>(model.coordinates.size()) - 1;
-  }
-  model.coordinates.push_back({index, owner->first, owner->second, law_of(*owner, kind, find)});
+  const auto own = std::find(offered.begin(), offered.end(), *which) - offered.begin();
+  model.coordinates.push_back({index, owner.first, owner.second,
+                               owner.coordinates[static_cast<std::size_t>(own)].law, *which});
   return static_cast<int>(model.coordinates.size()) - 1;
 }
 
@@ -252,12 +256,13 @@ bool is_joint_law(const loads::LoadSpec& spec) {
 
 void add_lock(const joints::JointSpec& joint, const EventSpec& event, MarkerFinder& find) {
   Model& model = find.model();
-  for (const Kind kind : {Kind::angle, Kind::displacement, Kind::second_angle}) {
-    const bool is_there = kind == Kind::angle          ? joint.turns()
-                          : kind == Kind::displacement ? joint.slides()
-                                                       : joint.turns_twice();
-    if (!is_there) continue;
-    const int index = find_coordinate(joint.name, kind, find);
+  const int owner = find_joint(model, joint.name);
+  const std::size_t count =
+      owner < 0 ? 0 : model.joints[static_cast<std::size_t>(owner)].coordinates.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const base::CoordinateChoice which =
+        model.joints[static_cast<std::size_t>(owner)].coordinates[k].which;
+    const int index = find_coordinate(joint.name, which, base::CoordinateSort::any, find);
     const Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(index)];
     if (model.joints[static_cast<std::size_t>(coordinate.joint)].track) {
       throw ModelError(event.where,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "buckens/joints/joint_spec.h"
@@ -22,9 +23,11 @@ void add_joint_law(const loads::LoadSpec& spec, MarkerFinder& find, double lengt
 /// @throws ModelError naming the event, if rows cannot hold them rigidly
 void add_lock(const joints::JointSpec& joint, const EventSpec& event, MarkerFinder& find);
 
-/// Index into Model::coordinates of the angle or displacement of a joint, added if missing.
+/// Index into Model::coordinates of a coordinate of a joint, added if missing.
+/// @param asked `which` of the model file, none: the one that is meant by its sort
 /// @return −1 if there is no such joint
-int find_coordinate(const std::string& joint, joints::JointCoordinate::Kind kind,
-                    MarkerFinder& find);
+/// @throws ModelError if a planar model leaves the joint no such coordinate
+int find_coordinate(const std::string& joint, std::optional<base::CoordinateChoice> asked,
+                    base::CoordinateSort sort, MarkerFinder& find);
 
 }  // namespace buckens::model

@@ -14,8 +14,6 @@ namespace buckens::model {
 
 namespace {
 
-using Kind = joints::JointCoordinate::Kind;
-
 Eigen::VectorXd vector_of(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
@@ -95,12 +93,10 @@ class SignalBuilder {
 
   Signal build() {
     if (spec_.value) out_.input = *spec_.value;
-    coordinate(spec_.joint_angle, Kind::angle, Signal::Kind::coordinate);
-    coordinate(spec_.joint_speed, Kind::angle, Signal::Kind::coordinate_rate);
-    coordinate(spec_.joint_second_angle, Kind::second_angle, Signal::Kind::coordinate);
-    coordinate(spec_.joint_second_speed, Kind::second_angle, Signal::Kind::coordinate_rate);
-    coordinate(spec_.joint_displacement, Kind::displacement, Signal::Kind::coordinate);
-    coordinate(spec_.joint_velocity, Kind::displacement, Signal::Kind::coordinate_rate);
+    for (const JointReading& read : joint_readings(spec_)) {
+      coordinate(*read.joint, read.which,
+                 read.is_rate ? Signal::Kind::coordinate_rate : Signal::Kind::coordinate);
+    }
     marker(spec_.position, Signal::Kind::position);
     marker(spec_.velocity, Signal::Kind::velocity);
     if (spec_.force_of) out_.kind = Signal::Kind::force;
@@ -123,13 +119,13 @@ class SignalBuilder {
   }
 
  private:
-  void coordinate(const std::optional<std::string>& joint, Kind which, Signal::Kind kind) {
-    if (!joint) return;
+  void coordinate(const std::string& joint, std::optional<base::CoordinateChoice> which,
+                  Signal::Kind kind) {
     out_.kind = kind;
-    out_.coordinate = find_coordinate(*joint, which, find_);
+    out_.coordinate = find_coordinate(joint, which, base::CoordinateSort::any, find_);
     if (out_.coordinate >= 0) return;
     throw ModelError(spec_.where,
-                     fmt::format("signal \"{}\": there is no joint \"{}\"", spec_.name, *joint));
+                     fmt::format("signal \"{}\": there is no joint \"{}\"", spec_.name, joint));
   }
   void marker(const std::optional<MarkerSignalSpec>& seen, Signal::Kind kind) {
     if (!seen) return;

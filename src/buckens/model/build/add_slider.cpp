@@ -203,6 +203,10 @@ class SliderBuilder {
   void add_rows(Joint& joint) const {
     joint.rows.push_back(joints::ConstraintRow::travelling(0));
     if (!find_.model().planar) joint.rows.push_back(joints::ConstraintRow::travelling(1));
+    // In axes of the point of the beam, whose x axis is its tangent.
+    joint.coordinates.push_back(
+        {base::CoordinateChoice::displacement,
+         joints::JointCoordinate::displacement(Vector3d::UnitX(), Vector3d::Zero())});
     if (!kind_.is_driven()) return;
     // What follows signals gets them when these are known, see add_drives().
     const joints::DriveLaws laws = kind_.laws();

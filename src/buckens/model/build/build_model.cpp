@@ -67,7 +67,7 @@ class Builder {
       if (!is_coupler(joint)) add_joint(joint, find);
     }
     for (const joints::JointSpec& joint : d.joints) {
-      if (is_coupler(joint)) add_coupler(joint, find);
+      if (is_coupler(joint)) add_joint(joint, find);
     }
     add_signals(d, find);
     add_drives(d, model_);
@@ -287,16 +287,6 @@ class Builder {
     }
   }
 
-  /// The coordinate that a sensor of a joint means.
-  joints::JointCoordinate::Kind kind_of(const JointCoordinateSensor& sensor) const {
-    const auto* joint = base::find_named(out_->description.joints, sensor.joint);
-    using Which = joints::JointCoordinate::Kind;
-    const CoordinateKind asked = sensor.choice(joint != nullptr && joint->turns());
-    return asked == CoordinateKind::angle          ? Which::angle
-           : asked == CoordinateKind::displacement ? Which::displacement
-                                                   : Which::second_angle;
-  }
-
   /// Places of the states of joints, and of the states and rigid rows of force laws, one after the
   /// other.
   void number_states() {
@@ -315,10 +305,10 @@ class Builder {
   }
 
   void add_starts(const InitialJointSpec& spec, MarkerFinder& find) {
-    const auto add = [&](joints::JointCoordinate::Kind kind, const std::optional<double>& value,
-                         const std::optional<double>& rate) {
-      if (!value && !rate) return;
-      const int coordinate = find_coordinate(spec.name, kind, find);
+    for (const base::CoordinateName& name : base::kCoordinateNames) {
+      if (spec.key_of(name) == nullptr) continue;
+      const int coordinate =
+          find_coordinate(spec.name, name.which, base::CoordinateSort::any, find);
       if (coordinate < 0) {
         throw InputError(spec.where, fmt::format("initial: there is no joint \"{}\"", spec.name));
       }
@@ -330,19 +320,16 @@ class Builder {
                                     "give the body a velocity",
                                     spec.name));
       }
-      out_->starts.push_back({coordinate, value, rate, spec.where});
-    };
-    using Which = joints::JointCoordinate::Kind;
-    add(Which::angle, spec.angle, spec.speed);
-    add(Which::second_angle, spec.second_angle, spec.second_speed);
-    add(Which::displacement, spec.displacement, spec.velocity);
+      const auto k = static_cast<std::size_t>(name.which);
+      out_->starts.push_back({coordinate, spec.values[k], spec.rates[k], spec.where});
+    }
   }
 
   // ---- sensors and drawing
   void add_sensor(const SensorSpec& spec, MarkerFinder& find) {
     SensorPlace found;
     if (const auto* seen = std::get_if<JointCoordinateSensor>(&spec.kind)) {
-      found.coordinate = find_coordinate(seen->joint, kind_of(*seen), find);
+      found.coordinate = find_coordinate(seen->joint, seen->which, base::CoordinateSort::any, find);
     }
     const auto look = [&](const base::MarkerRef& ref) {
       found.markers.push_back(find.marker(ref, false));

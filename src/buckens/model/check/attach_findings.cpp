@@ -19,6 +19,9 @@ std::string instead_of_attaching(const std::string& kind) {
   if (kind == "prescribed-translation") {
     return "let the event switch on a `slide-motor` with `displacement` and `stiffness`";
   }
+  if (kind == "prescribed-coordinate") {
+    return "let the event switch on a `hinge-motor` or `slide-motor` with `stiffness`";
+  }
   if (kind == "coupler") {
     return "use a `gear`, `rack`, `belt` or `screw`, which mesh where they are then";
   }

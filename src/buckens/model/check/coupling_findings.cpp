@@ -91,12 +91,23 @@ Found term_problem(const joints::CouplerTermSpec& term, const ModelDescription& 
                                    "take; couple what moves the slider",
                                    term.name)};
   }
-  if (term.which == joints::CoordinateChoice::second_angle) {
-    return second_angle_problem(term.name, model, "which");
+  return coordinate_problem({term.name, term.which, base::CoordinateSort::any, ""}, model);
+}
+
+Found driven_problem(const joints::PrescribedCoordinateSpec& spec, const ModelDescription& model) {
+  if (Found found = joint_problem(spec.joint, model)) return found;
+  const joints::JointSpec& joint = *base::find_named(model.joints, spec.joint);
+  if (std::holds_alternative<joints::SliderOnBeamSpec>(joint.kind)) {
+    return Finding{"joint", fmt::format("joint \"{}\" is a slider-on-beam, which is driven by its "
+                                        "own `displacement`, `velocity` or `acceleration`",
+                                        spec.joint)};
   }
-  const bool turns = term.which ? *term.which == joints::CoordinateChoice::angle : joint->turns();
-  if (Found found = coordinate_problem(term.name, turns, model, "")) return found;
-  return std::nullopt;
+  if (joint.laws().num_given() > 0) {
+    return Finding{"joint", fmt::format("joint \"{}\" is driven already; change its own law, or "
+                                        "remove this drive",
+                                        spec.joint)};
+  }
+  return coordinate_problem({spec.joint, spec.which, spec.sort()}, model);
 }
 
 }  // namespace
@@ -148,6 +159,13 @@ Found own_joint_problem(const joints::CouplerSpec& spec, const ModelDescription&
   return std::nullopt;
 }
 
+Found own_joint_problem(const joints::PrescribedCoordinateSpec& spec, const ModelDescription&) {
+  if (spec.num_given() == 1) return std::nullopt;
+  return Finding{"",
+                 "exactly one of the keys angle, speed, angular-acceleration, displacement, "
+                 "velocity and acceleration is needed, for example velocity: 0.2 m/s"};
+}
+
 Found own_joint_problem(const joints::SliderOnBeamSpec& spec, const ModelDescription&) {
   const int given = int{spec.displacement.has_value()} + int{spec.velocity.has_value()} +
                     int{spec.acceleration.has_value()};
@@ -181,9 +199,14 @@ Found own_joint_problem(const joints::RollingSpec& spec, const ModelDescription&
   return std::nullopt;
 }
 
-// Joints may stand in the model file behind the coupler that names them.
+// Joints may stand in the model file behind the coupler or drive that names them.
 Found coupled_joints_problem(const ModelDescription& model) {
   for (const joints::JointSpec& joint : model.joints) {
+    if (const auto* drive = std::get_if<joints::PrescribedCoordinateSpec>(&joint.kind)) {
+      if (Found found = driven_problem(*drive, model)) {
+        return under(fmt::format("joints.{}.prescribed-coordinate", joint.name), found);
+      }
+    }
     const auto* coupler = std::get_if<joints::CouplerSpec>(&joint.kind);
     if (coupler == nullptr) continue;
     for (const joints::CouplerTermSpec& term : coupler->of) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is wrong with cross joints, and with what names their second angle.
+// What is wrong with cross joints.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -29,16 +29,6 @@ Found arms_problem(const joints::UniversalSpec& spec) {
 }
 
 }  // namespace
-
-Found second_angle_problem(const std::string& name, const ModelDescription& model,
-                           const std::string& key) {
-  if (Found found = joint_problem(name, model)) return Finding{key, found->text};
-  const joints::JointSpec& joint = *base::find_named(model.joints, name);
-  if (joint.turns_twice()) return std::nullopt;
-  return Finding{key, fmt::format("joint \"{}\" is a {}, which has no second angle; only "
-                                  "universal joints turn about two axes",
-                                  name, joint.kind_name())};
-}
 
 Found own_joint_problem(const joints::UniversalSpec& spec, const ModelDescription&) {
   if (Found found = axis_problem(spec.axis)) return found;

@@ -42,30 +42,15 @@ Found joint_problem(const std::string& name, const ModelDescription& model) {
                                       base::suggestion(name, names_of(model.joints)))};
 }
 
-Found coordinate_problem(const std::string& name, bool turns, const ModelDescription& model,
-                         const std::string& key) {
-  if (Found found = joint_problem(name, model)) return Finding{key, found->text};
-  const joints::JointSpec& joint = *base::find_named(model.joints, name);
-  if (turns ? joint.turns() : joint.slides()) return std::nullopt;
-  std::vector<std::string> fitting;
-  for (const joints::JointSpec& other : model.joints) {
-    if (turns ? other.turns() : other.slides()) fitting.push_back(other.name);
-  }
-  return Finding{key, fmt::format("joint \"{}\" is a {}, which has no {}; name one that {}{}", name,
-                                  joint.kind_name(), turns ? "angle" : "displacement",
-                                  turns ? "turns about an axis" : "slides along an axis",
-                                  fitting.empty() ? std::string(" (the model has none)")
-                                                  : fmt::format(": {}", fmt::join(fitting, ", ")))};
-}
-
 namespace {
 
-/// The angle of a joint on which a law acts.
-Found angle_problem(const loads::JointLaw& law, const ModelDescription& model) {
-  if (law.which == loads::AngleChoice::second_angle) {
-    return second_angle_problem(law.joint, model, "which");
-  }
-  return coordinate_problem(law.joint, true, model);
+/// The coordinate of a joint on which a law acts.
+template <class Law>
+Found law_problem(const Law& law, const ModelDescription& model) {
+  return coordinate_problem(
+      {law.joint, law.which,
+       Law::kTurns ? base::CoordinateSort::angles : base::CoordinateSort::displacements},
+      model);
 }
 
 Found stop_problem(const loads::JointStop& spec, const char* unit) {
@@ -231,20 +216,20 @@ Found motor_problem(const loads::MotorSpec& spec, bool turns) {
 }  // namespace
 
 Found own_joint_problem(const loads::HingeSpringSpec& spec, const ModelDescription& model) {
-  return angle_problem(spec, model);
+  return law_problem(spec, model);
 }
 
 Found own_joint_problem(const loads::SlideSpringSpec& spec, const ModelDescription& model) {
-  return coordinate_problem(spec.joint, false, model);
+  return law_problem(spec, model);
 }
 
 Found own_joint_problem(const loads::HingeStopSpec& spec, const ModelDescription& model) {
-  if (Found found = angle_problem(spec, model)) return found;
+  if (Found found = law_problem(spec, model)) return found;
   return stop_problem(spec, "rad");
 }
 
 Found own_joint_problem(const loads::SlideStopSpec& spec, const ModelDescription& model) {
-  if (Found found = coordinate_problem(spec.joint, false, model)) return found;
+  if (Found found = law_problem(spec, model)) return found;
   return stop_problem(spec, "m");
 }
 
@@ -253,18 +238,32 @@ Found own_joint_problem(const loads::RopeSpec& spec, const ModelDescription&) {
 }
 
 Found own_joint_problem(const loads::HingeFrictionSpec& spec, const ModelDescription& model) {
-  if (Found found = angle_problem(spec, model)) return found;
+  if (Found found = law_problem(spec, model)) return found;
   const joints::JointSpec& joint = *base::find_named(model.joints, spec.joint);
-  if (joint.turns_twice()) {
-    return Finding{"joint", fmt::format("joint \"{}\" is a {}, which rubs on both of its arms; use "
-                                        "`ball-friction`",
-                                        spec.joint, joint.kind_name())};
+  if (!joint.has(base::CoordinateChoice::angle) ||
+      joint.has(base::CoordinateChoice::second_angle)) {
+    const bool is_cross = joint.has(base::CoordinateChoice::second_angle);
+    const bool is_ball = std::holds_alternative<joints::SphericalSpec>(joint.kind);
+    return Finding{"joint",
+                   fmt::format("joint \"{}\" is a {}, which rubs {}", spec.joint, joint.kind_name(),
+                               is_cross  ? "on both of its arms; use `ball-friction`"
+                               : is_ball ? "about all axes; use `ball-friction`"
+                                         : "in a way of its own; use the `damping` of a "
+                                           "`hinge-spring`")};
   }
   return friction_problem(spec);
 }
 
 Found own_joint_problem(const loads::SlideFrictionSpec& spec, const ModelDescription& model) {
-  if (Found found = coordinate_problem(spec.joint, false, model)) return found;
+  if (Found found = law_problem(spec, model)) return found;
+  const joints::JointSpec& joint = *base::find_named(model.joints, spec.joint);
+  if (!joint.has(base::CoordinateChoice::displacement)) {
+    return Finding{"joint",
+                   fmt::format("joint \"{}\" is a {}, whose friction has one direction, that in "
+                               "which it slides, and not one along each coordinate; use a "
+                               "`contact` with friction, or the `damping` of a `slide-spring`",
+                               spec.joint, joint.kind_name())};
+  }
   return friction_problem(static_cast<const loads::JointFrictionBase&>(spec));
 }
 
@@ -296,23 +295,23 @@ Found own_joint_problem(const loads::BallFrictionSpec& spec, const ModelDescript
 }
 
 Found own_joint_problem(const loads::HingeMotorSpec& spec, const ModelDescription& model) {
-  if (Found found = angle_problem(spec, model)) return found;
+  if (Found found = law_problem(spec, model)) return found;
   if (Found found = motor_problem(spec, true)) return found;
   return return_step_problem(spec, model);
 }
 
 Found own_joint_problem(const loads::SlideMotorSpec& spec, const ModelDescription& model) {
-  if (Found found = coordinate_problem(spec.joint, false, model)) return found;
+  if (Found found = law_problem(spec, model)) return found;
   if (Found found = motor_problem(spec, false)) return found;
   return return_step_problem(spec, model);
 }
 
 Found own_joint_problem(const loads::HingeBrakeSpec& spec, const ModelDescription& model) {
-  return angle_problem(spec, model);
+  return law_problem(spec, model);
 }
 
 Found own_joint_problem(const loads::SlideBrakeSpec& spec, const ModelDescription& model) {
-  return coordinate_problem(spec.joint, false, model);
+  return law_problem(spec, model);
 }
 
 Found own_joint_problem(const loads::ElasticBeltSpec& spec, const ModelDescription&) {
@@ -336,12 +335,7 @@ Found own_joint_problem(const BeltSensor& spec, const ModelDescription& model) {
 }
 
 Found own_joint_problem(const JointCoordinateSensor& spec, const ModelDescription& model) {
-  const auto* joint = base::find_named(model.joints, spec.joint);
-  if (spec.which == CoordinateKind::second_angle) {
-    return second_angle_problem(spec.joint, model, "which");
-  }
-  const bool turns = spec.choice(joint != nullptr && joint->turns()) == CoordinateKind::angle;
-  return coordinate_problem(spec.joint, turns, model);
+  return coordinate_problem({spec.joint, spec.which, base::CoordinateSort::any}, model);
 }
 
 Found own_joint_problem(const joints::ScrewSpec& spec, const ModelDescription&) {

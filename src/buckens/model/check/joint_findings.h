@@ -14,15 +14,17 @@ bool acts_on_coordinate(const loads::LoadSpec& load, bool turns);
 /// Whether a sensor names a joint that does not exist.
 Found joint_problem(const std::string& name, const ModelDescription& model);
 
-/// Whether a joint does not exist or has no angle (displacement).
-/// @param key field that names it
-Found coordinate_problem(const std::string& name, bool turns, const ModelDescription& model,
-                         const std::string& key = "joint");
+/// A coordinate of a joint that a model file asks for.
+struct CoordinateQuery {
+  std::string joint;
+  std::optional<base::CoordinateChoice> asked;
+  base::CoordinateSort sort = base::CoordinateSort::any;
+  std::string key = "joint";        ///< field that names the joint
+  std::string which_key = "which";  ///< field that names the coordinate
+};
 
-/// Whether a joint does not exist or has no second angle.
-/// @param key field that asks for it
-Found second_angle_problem(const std::string& name, const ModelDescription& model,
-                           const std::string& key);
+/// Whether a joint does not exist, or has no such coordinate, or several that may be meant.
+Found coordinate_problem(const CoordinateQuery& query, const ModelDescription& model);
 
 /// Whether joints do not exist or cannot be attached during a run.
 /// @param key field that names them
@@ -59,7 +61,9 @@ Found own_joint_problem(const joints::RackSpec& spec, const ModelDescription& mo
 Found own_joint_problem(const joints::CouplerSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::SliderOnBeamSpec& spec, const ModelDescription& model);
 Found own_joint_problem(const joints::RollingSpec& spec, const ModelDescription& model);
-/// Whether a coupler names joints that do not exist, or have no such coordinate.
+Found own_joint_problem(const joints::PrescribedCoordinateSpec& spec,
+                        const ModelDescription& model);
+/// Whether a coupler or a drive names joints that do not exist, or have no such coordinate.
 Found coupled_joints_problem(const ModelDescription& model);
 
 }  // namespace buckens::model

@@ -14,12 +14,9 @@ namespace buckens::model {
 namespace {
 
 int num_given(const SignalSpec& s) {
-  return int{s.value.has_value()} + int{s.joint_angle.has_value()} +
-         int{s.joint_speed.has_value()} + int{s.joint_displacement.has_value()} +
-         int{s.joint_velocity.has_value()} + int{s.joint_second_angle.has_value()} +
-         int{s.joint_second_speed.has_value()} + int{s.position.has_value()} +
-         int{s.velocity.has_value()} + int{s.force_of.has_value()} + int{s.sensor.has_value()} +
-         int{s.integral.has_value()} + int{s.lag.has_value()} +
+  return static_cast<int>(joint_readings(s).size()) + int{s.value.has_value()} +
+         int{s.position.has_value()} + int{s.velocity.has_value()} + int{s.force_of.has_value()} +
+         int{s.sensor.has_value()} + int{s.integral.has_value()} + int{s.lag.has_value()} +
          int{s.transfer_function.has_value()} + int{s.state_space.has_value()} +
          int{s.pid.has_value()} + int{s.sample_hold.has_value()} + int{s.table.has_value()} +
          int{s.rate_limit.has_value()} + int{s.switched.has_value()} + int{s.setting.has_value()};
@@ -29,30 +26,23 @@ int num_given(const SignalSpec& s) {
 
 Found problem(const SignalSpec& spec, const ModelDescription& model) {
   if (num_given(spec) != 1) {
-    return Finding{"",
-                   "exactly one of the keys value, joint-angle, joint-speed, "
-                   "joint-second-angle, joint-second-speed, "
-                   "joint-displacement, joint-velocity, position, velocity, force-of, sensor, "
-                   "integral, lag, transfer-function, state-space, pid, sample-hold, "
-                   "table, rate-limit, switch and setting is needed"};
+    return Finding{
+        "",
+        "exactly one of the keys value, joint-angle, joint-speed, "
+        "joint-second-angle, joint-second-speed, "
+        "joint-displacement, joint-velocity, joint-coordinate, joint-rate, position, velocity, "
+        "force-of, sensor, "
+        "integral, lag, transfer-function, state-space, pid, sample-hold, "
+        "table, rate-limit, switch and setting is needed"};
   }
-  struct Seen {
-    const std::optional<std::string>& joint;
-    bool turns;
-    const char* key;
-  };
-  for (const Seen& seen :
-       {Seen{spec.joint_angle, true, "joint-angle"}, Seen{spec.joint_speed, true, "joint-speed"},
-        Seen{spec.joint_displacement, false, "joint-displacement"},
-        Seen{spec.joint_velocity, false, "joint-velocity"}}) {
-    if (!seen.joint) continue;
-    if (Found found = coordinate_problem(*seen.joint, seen.turns, model, seen.key)) return found;
-  }
-  if (spec.joint_second_angle) {
-    return second_angle_problem(*spec.joint_second_angle, model, "joint-second-angle");
-  }
-  if (spec.joint_second_speed) {
-    return second_angle_problem(*spec.joint_second_speed, model, "joint-second-speed");
+  for (const JointReading& read : joint_readings(spec)) {
+    const bool is_any = spec.joint_coordinate || spec.joint_rate;
+    const CoordinateQuery query =
+        is_any ? CoordinateQuery{*read.joint, read.which, base::CoordinateSort::any,
+                                 std::string(read.key) + ".joint", std::string(read.key) + ".which"}
+               : CoordinateQuery{*read.joint, read.which, base::CoordinateSort::any, read.key,
+                                 read.key};
+    if (Found found = coordinate_problem(query, model)) return found;
   }
   return std::nullopt;
 }
@@ -130,7 +120,15 @@ Found locks_problem(const std::vector<std::string>& joints, const char* key,
                                       base::suggestion(name, names_of(model.joints)))};
     }
     const bool is_driven = std::string(joint->kind_name()).starts_with("prescribed");
-    if ((joint->turns() || joint->slides()) && !is_driven) continue;
+    const bool is_bent = joint->has(base::CoordinateChoice::swing);
+    if (!joint->coordinates().empty() && !is_bent && !is_driven) continue;
+    if (is_bent) {
+      return Finding{key, fmt::format("joint \"{}\" is a {}, which has no angle or displacement to "
+                                      "hold: its coordinates do not say all of how it stands; name "
+                                      "a `fixed` joint under `attach` that holds its bodies "
+                                      "`as-found`",
+                                      name, joint->kind_name())};
+    }
     return Finding{key, fmt::format("joint \"{}\" is a {}, which {}; name one that turns about or "
                                     "slides along an axis and is not driven",
                                     name, joint->kind_name(),

@@ -1,26 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <optional>
+#include <string>
+#include <vector>
+
 #include <fmt/format.h>
 
+#include "buckens/base/nearest.h"
 #include "buckens/model/check/joint_findings.h"
+#include "buckens/model/check/marker_names.h"
 #include "buckens/model/check/spec_findings.h"
 
 namespace buckens::model {
 
 namespace {
 
-/// With which value the coordinate of a joint starts: zero as placed.
-double start_of(const loads::JointStop& stop, bool turns, const ModelDescription& model) {
+/// With which value the coordinate on which a stop acts starts, if that is given; else as placed.
+struct StopStart {
+  double value = 0;
+  bool is_given = false;
+};
+
+/// @return none for what is not zero as placed, and for what a joint does not have
+std::optional<StopStart> start_of(const loads::JointStop& stop, bool turns,
+                                  const ModelDescription& model) {
+  const auto* joint = base::find_named(model.joints, stop.joint);
+  if (joint == nullptr) return std::nullopt;
+  const auto which =
+      base::meant(joint->coordinates(), stop.which,
+                  turns ? base::CoordinateSort::angles : base::CoordinateSort::displacements);
+  if (!which) return std::nullopt;
   const auto* given = base::find_named(model.initial.joints, stop.joint);
-  if (given == nullptr) return 0.0;
-  if (stop.which == loads::AngleChoice::second_angle) return given->second_angle.value_or(0.0);
-  return (turns ? given->angle : given->displacement).value_or(0.0);
+  if (given != nullptr && given->value(*which)) return StopStart{*given->value(*which), true};
+  // A swing is what the axes are, which is known when the bodies are placed.
+  if (*which == base::CoordinateChoice::swing) return std::nullopt;
+  return StopStart{0.0, given != nullptr};
 }
 
 Found start_problem(const loads::JointStop& stop, bool turns, const ModelDescription& model) {
-  const double start = start_of(stop, turns, model);
+  const std::optional<StopStart> found = start_of(stop, turns, model);
+  if (!found) return std::nullopt;
+  const double start = found->value;
   const bool is_before = stop.from && start < *stop.from;
   if (!is_before && !(stop.to && start > *stop.to)) return std::nullopt;
-  const bool is_given = base::find_named(model.initial.joints, stop.joint) != nullptr;
+  const bool is_given = found->is_given;
   return Finding{
       is_before ? "from" : "to",
       fmt::format("the joint starts at {:g} {}{}, outside of its stops from {} to {} {}; {}", start,
@@ -50,36 +72,32 @@ Found stops_problem(const ModelDescription& model) {
 }
 
 Found problem(const InitialJointSpec& spec, const ModelDescription& model) {
-  const bool turns = spec.angle || spec.speed;
-  const bool slides = spec.displacement || spec.velocity;
-  const bool turns_twice = spec.second_angle || spec.second_speed;
-  if (!turns && !slides && !turns_twice) {
-    return Finding{
-        "",
-        "at least one of the keys angle, speed, second-angle, second-speed, displacement "
-        "and velocity is needed"};
+  std::vector<std::string> keys;
+  bool is_empty = true;
+  for (const base::CoordinateName& name : base::kCoordinateNames) {
+    keys.insert(keys.end(), {name.key, name.rate_key});
+    is_empty = is_empty && spec.key_of(name) == nullptr;
+  }
+  if (is_empty) {
+    return Finding{"", fmt::format("at least one of the keys {} is needed", fmt::join(keys, ", "))};
   }
   const auto* joint = base::find_named(model.joints, spec.name);
-  if (joint != nullptr &&
-      (std::holds_alternative<joints::PrescribedRotationSpec>(joint->kind) ||
-       std::holds_alternative<joints::PrescribedTranslationSpec>(joint->kind))) {
+  if (joint != nullptr && joint->laws().num_given() > 0 &&
+      !std::holds_alternative<joints::SliderOnBeamSpec>(joint->kind)) {
     return Finding{"",
                    fmt::format("joint \"{}\" is a drive, whose law says where it starts; change "
                                "that law",
                                spec.name)};
   }
-  if (spec.angle || spec.speed) {
-    if (Found found = coordinate_problem(spec.name, true, model, spec.angle ? "angle" : "speed")) {
+  for (const base::CoordinateName& name : base::kCoordinateNames) {
+    const char* key = spec.key_of(name);
+    if (key == nullptr) continue;
+    if (Found found = coordinate_problem(
+            {spec.name, name.which, base::CoordinateSort::any, key, key}, model)) {
       return found;
     }
   }
-  if (turns_twice) {
-    const char* key = spec.second_angle ? "second-angle" : "second-speed";
-    if (Found found = second_angle_problem(spec.name, model, key)) return found;
-  }
-  if (!spec.displacement && !spec.velocity) return std::nullopt;
-  return coordinate_problem(spec.name, false, model,
-                            spec.displacement ? "displacement" : "velocity");
+  return std::nullopt;
 }
 
 Found problem(const InitialSpec& spec, const ModelDescription& model) {
@@ -102,10 +120,13 @@ Found problem(const InitialSpec& spec, const ModelDescription& model) {
   }
   if (spec.start != StartKind::static_equilibrium) return std::nullopt;
   for (const InitialJointSpec& joint : spec.joints) {
-    if (!joint.angle && !joint.second_angle && !joint.displacement) continue;
-    return Finding{"start", fmt::format("the equilibrium decides where joint \"{}\" starts; remove "
-                                        "its {} under `joints`, or `start: static`",
-                                        joint.name, joint.displacement ? "displacement" : "angle")};
+    for (const base::CoordinateName& name : base::kCoordinateNames) {
+      if (!joint.value(name.which)) continue;
+      return Finding{"start",
+                     fmt::format("the equilibrium decides where joint \"{}\" starts; remove "
+                                 "its {} under `joints`, or `start: static`",
+                                 joint.name, name.key)};
+    }
   }
   return std::nullopt;
 }

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <fmt/format.h>
 
+#include "buckens/base/coordinate_choice.h"
 #include "buckens/base/expression.h"
 #include "buckens/base/field.h"
 #include "buckens/model/spec/rest_friction.h"
@@ -99,46 +101,44 @@ struct InitialBodySpec {
   }
 };
 
-/// Values with which the coordinates of a joint start.
+/// Values with which the coordinates of a joint start, in the order of base::kCoordinateNames.
 struct InitialJointSpec {
   std::string name;  ///< of the joint
   SourceLocation where;
-  std::optional<double> angle;         ///< [rad]
-  std::optional<double> speed;         ///< [rad/s]
-  std::optional<double> second_angle;  ///< of a universal joint [rad]
-  std::optional<double> second_speed;  ///< [rad/s]
-  std::optional<double> displacement;  ///< [m]
-  std::optional<double> velocity;      ///< [m/s]
+  std::array<std::optional<double>, base::kNumCoordinateChoices> values;  ///< [rad] or [m]
+  std::array<std::optional<double>, base::kNumCoordinateChoices> rates;   ///< [rad/s] or [m/s]
+
+  const std::optional<double>& value(base::CoordinateChoice which) const {
+    return values[static_cast<std::size_t>(which)];
+  }
+  /// The key that says something about a coordinate; null: none does.
+  const char* key_of(const base::CoordinateName& own) const {
+    const auto k = static_cast<std::size_t>(own.which);
+    return values[k] ? own.key : rates[k] ? own.rate_key : nullptr;
+  }
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(base::field("angle", angle,
-                      "of a joint that turns, counted from the position as placed and over turns")
-              .in(base::kAngle)
-              .like("30 deg")
-              .otherwise("as placed, or as other joints ask for"));
-    visit(base::field("speed", speed, "rate of the angle")
-              .in(base::kAngularVelocity)
-              .like("2 rad/s")
-              .otherwise("as the velocities of bodies ask for"));
-    visit(base::field("second-angle", second_angle,
-                      "of a universal joint: about the arm that its second body holds")
-              .in(base::kAngle)
-              .like("-10 deg")
-              .otherwise("as placed, or as other joints ask for"));
-    visit(base::field("second-speed", second_speed, "rate of the second angle")
-              .in(base::kAngularVelocity)
-              .like("1 rad/s")
-              .otherwise("as the velocities of bodies ask for"));
-    visit(base::field("displacement", displacement,
-                      "of a joint that slides, counted from the position as placed")
-              .in(base::kLength)
-              .like("20 mm")
-              .otherwise("as placed, or as other joints ask for"));
-    visit(base::field("velocity", velocity, "rate of the displacement")
-              .in(base::kVelocity)
-              .like("0.1 m/s")
-              .otherwise("as the velocities of bodies ask for"));
+    static constexpr std::array<const char*, base::kNumCoordinateChoices> kDocs = {
+        "of a joint that turns, counted from the position as placed and over turns",
+        "of a joint that slides, counted from the position as placed",
+        "of a universal joint: about the arm that its second body holds",
+        "displacement along x of a plane, or of a joint that leaves all translations free",
+        "displacement along y of a plane, or of a joint that leaves all translations free",
+        "displacement along z of a joint that leaves all translations free",
+        "angle between the axes of a ball joint, or of shafts of constant velocity",
+        "of a ball joint: turn about the axis of its second body"};
+    for (const base::CoordinateName& own : base::kCoordinateNames) {
+      const auto k = static_cast<std::size_t>(own.which);
+      visit(base::field(own.key, values[k], kDocs[k])
+                .in(own.is_angle ? base::kAngle : base::kLength)
+                .like(own.is_angle ? "30 deg" : "20 mm")
+                .otherwise("as placed, or as other joints ask for"));
+      visit(base::field(std::string(own.rate_key), rates[k], fmt::format("rate of `{}`", own.key))
+                .in(own.is_angle ? base::kAngularVelocity : base::kVelocity)
+                .like(own.is_angle ? "2 rad/s" : "0.1 m/s")
+                .otherwise("as the velocities of bodies ask for"));
+    }
   }
 };
 
@@ -161,7 +161,7 @@ struct InitialSpec {
   void fields(Visitor& visit) {
     visit(base::field("bodies", bodies, "initial velocities and shapes by name of the body"));
     visit(base::field("joints", joints,
-                      "angles, displacements and their rates by name of the joint; assembly holds "
+                      "coordinates and their rates by name of the joint; assembly holds "
                       "them while it moves all else as little as it can")
               .like("{elbow: {angle: 30 deg, speed: 2 rad/s}}"));
     visit(base::field("start", start,

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "buckens/base/coordinate_choice.h"
 #include "buckens/base/field.h"
 #include "buckens/base/marker_ref.h"
 #include "buckens/model/spec/field_spec.h"
@@ -153,32 +154,22 @@ struct JointTorqueSensor : JointForceSensor {
   static constexpr const char* kDoc = "torque of a joint on its second marker";
 };
 
-enum class CoordinateKind { angle, displacement, second_angle };
-
-constexpr std::array<const char*, 3> choice_names(CoordinateKind) {
-  return {"angle", "displacement", "second-angle"};
-}
-
 /// Coordinate of a joint, and its rate.
 struct JointCoordinateSensor {
   static constexpr const char* kKey = "joint-coordinate";
   static constexpr const char* kDoc =
       "angle of a joint about its axis, including whole turns, or displacement along it, from the "
-      "position as placed; with its rate";
+      "position as placed; or another of its coordinates; with its rate";
   std::string joint;
-  std::optional<CoordinateKind> which;
-
-  /// The coordinate that is meant: the requested one, or the only one.
-  CoordinateKind choice(bool turns) const {
-    return which.value_or(turns ? CoordinateKind::angle : CoordinateKind::displacement);
-  }
+  std::optional<base::CoordinateChoice> which;
 
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("joint", joint, "name of the joint").required().shorthand().like("hinge"));
-    visit(base::field("which", which, "for joints that rotate and slide, or rotate about two axes")
+    visit(base::field("which", which, "of joints with several coordinates")
               .like("displacement")
-              .otherwise("the angle of joints that rotate"));
+              .otherwise("the angle of joints that rotate, the displacement of those that slide; "
+                         "needed where there are only others"));
   }
 };
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "buckens/base/coordinate_choice.h"
 #include "buckens/base/field.h"
 #include "buckens/base/marker_ref.h"
 #include "buckens/base/signal_law.h"
@@ -249,6 +250,21 @@ struct SettingSpec {
   }
 };
 
+/// A coordinate of a joint.
+struct JointSignalSpec {
+  SourceLocation where;
+  std::string joint;
+  std::optional<base::CoordinateChoice> which;
+  template <class Visitor>
+  void fields(Visitor& visit) {
+    visit(base::field("joint", joint, "name of the joint").required().shorthand().like("bead"));
+    visit(base::field("which", which, "of joints with several coordinates")
+              .like("x")
+              .otherwise("the angle of joints that rotate, the displacement of those that slide; "
+                         "needed where there are only others"));
+  }
+};
+
 /// One value of a sensor of `output`.
 struct SensorSignalSpec {
   SourceLocation where;
@@ -271,6 +287,18 @@ struct SensorSignalSpec {
   }
 };
 
+struct SignalSpec;
+
+/// What a signal reads of a joint, by whichever of its keys.
+struct JointReading {
+  const char* key;           ///< in the model file
+  const std::string* joint;  ///< its name
+  std::optional<base::CoordinateChoice> which;
+  bool is_rate;
+};
+/// Those given, which is one at most.
+std::vector<JointReading> joint_readings(const SignalSpec& spec);
+
 /// A named number that varies with the motion: exactly one of the members is given.
 struct SignalSpec {
   // In signal_spec.cpp, because they reach through all members: two to five seconds of compiling
@@ -287,6 +315,7 @@ struct SignalSpec {
   std::optional<base::SignalLaw> value;
   std::optional<std::string> joint_angle, joint_speed, joint_displacement, joint_velocity;
   std::optional<std::string> joint_second_angle, joint_second_speed;
+  std::optional<JointSignalSpec> joint_coordinate, joint_rate;
   std::optional<MarkerSignalSpec> position, velocity;
   std::optional<std::string> force_of;
   std::optional<SensorSignalSpec> sensor;
@@ -343,6 +372,10 @@ struct SignalSpec {
               .like("slider"));
     visit(base::field("joint-velocity", joint_velocity, "rate of the displacement of this joint")
               .like("slider"));
+    visit(base::field("joint-coordinate", joint_coordinate,
+                      "any coordinate of a joint from its position as placed, such as the swing of "
+                      "a ball joint"));
+    visit(base::field("joint-rate", joint_rate, "rate of any coordinate of a joint"));
     visit(base::field("position", position, "position of a marker along a direction of the world"));
     visit(base::field("velocity", velocity, "velocity of a marker along a direction of the world"));
     visit(base::field("force-of", force_of,
