@@ -66,7 +66,7 @@ LOADS
 initial:
   bodies:
 INITIAL
-simulation: {duration: 14 ms, step: 0.1 ms}
+simulation: {duration: 15 ms, step: 0.1 ms}
 output:
   every: 0.1 ms
   sensors:
@@ -87,6 +87,9 @@ BOX, TUBE, PILL = "{box: [0.6, 0.4, 0.2]}", "{cylinder: {radius: 0.2, length: 0.
 EVEN, ON_CORNER, ON_EDGE = ([0, 0, 1], 0.0), ([1, -1, 0], 0.6), ([0, 1, 0], 0.5)
 # Edges along y of the solid and along x of the body that cross, both turned about their own edge.
 ACROSS = ([0, 1, 0], math.atan2(0.6, 0.8))
+# Rods whose axis x is at right angles to the normal, which their axis z is turned to.
+ON_TIP, ON_SIDE, ON_RIM = ([-1, 1, 0], math.acos(1 / 3)), ([-0.8, 0.6, 0], math.pi / 2), ([0, 1, 0], math.acos(0.6))
+BESIDE = [0.12, 0, -0.1]
 
 BLOWS = {
     "box-face": (BOX, BALL, EVEN, [0.1, 0.05, 0.1], None, [0, 0, 1]),
@@ -99,6 +102,10 @@ BLOWS = {
     "capsule-end": (PILL, BALL, EVEN, [0.12, 0, 0.41], None, [0.6, 0, 0.8]),
     "capsules-crossing": (PILL, ROD, EVEN, [0, 0.2, -0.1], [0.15, -0.1, 0], [0, 1, 0]),
     "capsules-end": (PILL, ROD, EVEN, [-0.2, 0, 0.1], [0.4, 0, 0], [-1, 0, 0]),
+    "rod-on-edge": (BOX, ROD, ACROSS, [0.3, 0.1, 0.1], turn(*ACROSS) @ BESIDE, [0.6, 0, 0.8]),
+    "rod-on-corner": (BOX, ROD, ON_TIP, [0.3, 0.2, 0.1], turn(*ON_TIP) @ BESIDE, [2 / 3, 2 / 3, 1 / 3]),
+    "rod-across-cylinder": (TUBE, ROD, ON_SIDE, [0.12, 0.16, 0.1], turn(*ON_SIDE) @ BESIDE, [0.6, 0.8, 0]),
+    "rod-on-rim": (TUBE, ROD, ON_RIM, [0.2, 0, 0.25], turn(*ON_RIM) @ BESIDE, [0.8, 0, 0.6]),
     "corner-on-face": (BOX, BRICK, ON_CORNER, [0.1, 0.05, 0.1], turn(*ON_CORNER) @ [-0.15, -0.2, -0.1], [0, 0, 1]),
     "edges": (BOX, BRICK, ACROSS, [0.3, 0.05, 0.1], turn(*ACROSS) @ turn([1, 0, 0], 0.6) @ [0.05, -0.2, -0.1], [0.6, 0, 0.8]),
 }

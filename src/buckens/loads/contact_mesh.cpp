@@ -17,7 +17,6 @@ namespace {
 constexpr double kSameBorder = 1e-9;
 // Spacing of springs as a share of the side of the mean face, of which a surface has six.
 constexpr double kSpacing = 0.2, kFaces = 6.0;
-
 /// Sums over the triangles at a point. @param term (triangle, its corner there)
 template <class Term>
 Vector3d sum_at(const MeshTopology& from, int point, Term&& term) {
@@ -249,6 +248,34 @@ void ContactMesh::nearest_of_colours(const Vector3d& point, double reach,
     out[c] = finish(point, facets[c], best[c]);
     if (best[c].feature >= 0 && goes_on(point, facets[c], best[c])) out[c].distance = HUGE_VAL;
   }
+}
+
+spatial::TouchSurface::View ContactMesh::look(const Vector3d& point, int colour) const {
+  CurvedFacet::Place best;
+  best.square = HUGE_VAL;
+  int facet = -1;
+  const std::uint32_t wanted = 1U << static_cast<unsigned>(colour);
+  tree_.search([&](const AlignedBox3d& box) { return box.squaredExteriorDistance(point); },
+               [&](double square, std::uint32_t marks) {
+                 return (marks & wanted) != 0 && square < best.square;
+               },
+               [&](int item) {
+                 const auto t = static_cast<std::size_t>(item);
+                 if (colours_[static_cast<std::size_t>(patches_[t])] != colour) return;
+                 const CurvedFacet::Place place = facets_[t].nearest(point);
+                 if (!(place.square < best.square)) return;
+                 best = place;
+                 facet = item;
+               });
+  spatial::TouchSurface::View out;
+  out.distance = std::sqrt(best.square);
+  if (!(out.distance > 0.0)) {
+    out.normal = best.normal.normalized();
+    return out;
+  }
+  out.normal = (point - best.at) / out.distance;
+  out.curvature = facets_[static_cast<std::size_t>(facet)].curvature(point, best);
+  return out;
 }
 
 }  // namespace buckens::loads

@@ -12,6 +12,7 @@
 #include "buckens/loads/box_tree.h"
 #include "buckens/loads/curved_facet.h"
 #include "buckens/loads/surface_points.h"
+#include "buckens/spatial/touch_surface.h"
 #include "buckens/spatial/triangle_list.h"
 
 namespace buckens::loads {
@@ -48,6 +49,14 @@ class ContactMesh {
   /// The nearest place of each colour within reach; of those that other patches continue nearer to
   /// the point, none. @param out num_colours() of them
   void nearest_of_colours(const Eigen::Vector3d& point, double reach, std::span<Nearest> out) const;
+
+  /// What a point outside sees of the nearest patch of one colour, up to its borders and not
+  /// beyond.
+  /// @param colour below num_colours()
+  spatial::TouchSurface::View look(const Eigen::Vector3d& point, int colour) const;
+  /// Corners in which facets of more than two planes meet, or which are on the border of an open
+  /// surface; the others lie between those. Each place once.
+  std::vector<Eigen::Vector3d> sharp_corners() const;
 
   int num_colours() const { return num_colours_; }
   int num_patches() const { return num_patches_; }

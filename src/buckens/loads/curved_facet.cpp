@@ -7,6 +7,7 @@
 namespace buckens::loads {
 
 using Eigen::Matrix2d;
+using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
@@ -126,6 +127,7 @@ CurvedFacet::Place CurvedFacet::nearest(const Vector3d& point) const {
     out.at = at.x;
     out.normal = at.u.cross(at.v);
     out.square = (point - at.x).squaredNorm();
+    out.parameters = inside;
     return out;
   }
   out.square = HUGE_VAL;
@@ -144,8 +146,33 @@ CurvedFacet::Place CurvedFacet::nearest(const Vector3d& point) const {
                      (1.0 - t) * kEnds[k][1] + t * kEnds[next][1]);
     const At there = evaluate(*this, p);
     out.normal = there.u.cross(there.v);
+    out.parameters = p;
   }
   return out;
+}
+
+Matrix3d CurvedFacet::curvature(const Vector3d& point, const Place& place) const {
+  const double distance = std::sqrt(place.square);
+  const Vector3d n = (point - place.at) / distance;
+  Matrix3d out = Matrix3d::Identity() - n * n.transpose();
+  // Less what the nearest place follows the point by.
+  const At at = evaluate(*this, place.parameters);
+  const Vector3d r = place.at - point;
+  if (place.feature < 0) {
+    Matrix2d H;
+    H << at.u.dot(at.u) + r.dot(at.uu), at.u.dot(at.v) + r.dot(at.uv), 0.0,
+        at.v.dot(at.v) + r.dot(at.vv);
+    H(1, 0) = H(0, 1);
+    Eigen::Matrix<double, 3, 2> X;
+    X << at.u, at.v;
+    out -= X * H.inverse() * X.transpose();
+  } else if (place.feature < 3) {
+    const auto k = static_cast<std::size_t>(place.feature);
+    // λ along the edges: u, v − u, −v.
+    const Vector3d along = k == 0 ? at.u : k == 1 ? Vector3d(at.v - at.u) : Vector3d(-at.v);
+    out -= along * along.transpose() / (along.squaredNorm() + 2.0 * r.dot(bulge[k]));
+  }
+  return out / distance;
 }
 
 }  // namespace buckens::loads

@@ -28,7 +28,11 @@ struct CurvedFacet {
     Eigen::Vector3d normal;  ///< of the surface there, not of unit length
     double square = 0;       ///< of the distance [m²]
     int feature = -1;
+    Eigen::Vector2d parameters = Eigen::Vector2d::Zero();  ///< λ₁ and λ₂
   };
+  /// Second derivatives of the distance of a point from the facet [1/m].
+  /// @param place its nearest place, apart from it
+  Eigen::Matrix3d curvature(const Eigen::Vector3d& point, const Place& place) const;
   /// The nearest place to a point.
   Place nearest(const Eigen::Vector3d& point) const;
 

@@ -2,7 +2,7 @@
 #include "buckens/spatial/rigid_touch.h"
 
 #include "buckens/spatial/box_touch.h"
-#include "buckens/spatial/segment_pair.h"
+#include "buckens/spatial/touch_features.h"
 
 namespace buckens::spatial {
 
@@ -31,25 +31,6 @@ Vector3d TouchPlace::velocity(const MarkerMotion& F, const MarkerMotion& M) cons
   return M.v + M.w.cross(place - M.p) - F.v - F.w.cross(place - F.p);
 }
 
-void RigidTouch::look_at_surface(const MarkerMotion& other, const MarkerMotion& owner,
-                                 TouchPlace& out) const {
-  const Vector3d lever = owner.R * data_.at;
-  const Vector3d x = owner.p + lever;
-  const Vector3d x_rate = owner.v + owner.w.cross(lever);
-  const Vector3d from = x - other.p;
-  const TouchSurface::View view = data_.surface.look(other.R.transpose() * from);
-  const Vector3d own_rate = other.R.transpose() * (x_rate - other.v - other.w.cross(from));
-  out.normal = other.R * view.normal;
-  out.normal_rate = other.w.cross(out.normal) + other.R * (view.curvature * own_rate);
-  out.gap = view.distance - data_.radius;
-  // On planes the place is that of the sphere, else halfway between both surfaces.
-  const bool is_plane = data_.surface.kind == TouchSurface::Kind::plane;
-  const double down = is_plane ? data_.radius : 0.5 * (view.distance + data_.radius);
-  const double down_rate = is_plane ? 0.0 : 0.5 * view.normal.dot(own_rate);
-  out.place = x - down * out.normal;
-  out.place_rate = x_rate - down * out.normal_rate - down_rate * out.normal;
-}
-
 void RigidTouch::look_at_rim(const MarkerMotion& F, const MarkerMotion& M, TouchPlace& out) const {
   out.normal = F.R * data_.surface.axis;
   out.normal_rate = F.w.cross(out.normal);
@@ -75,51 +56,30 @@ void RigidTouch::look_at_rim(const MarkerMotion& F, const MarkerMotion& M, Touch
   out.gap = out.normal.dot(out.place - F.p);
 }
 
-void RigidTouch::look_at_axes(const MarkerMotion& F, const MarkerMotion& M, TouchPlace& out) const {
-  const Vector3d r = M.p - F.p, r_rate = M.v - F.v;
-  const Vector3d a = F.R * data_.surface.axis * data_.surface.half_length;
-  const Vector3d b = M.R * data_.axis * data_.half_length;
-  const Vector3d a_rate = F.w.cross(a), b_rate = M.w.cross(b);
-  const auto nearest = NearestOfSegments::of(r, a, b);
-  const Eigen::Vector2d rates = nearest.rates(r, a, b, r_rate, a_rate, b_rate);
-  const Vector3d on_first = F.p + nearest.on_first * a;
-  const Vector3d first_rate = F.v + rates[0] * a + nearest.on_first * a_rate;
-  const Vector3d between = r + nearest.on_second * b - nearest.on_first * a;
-  const Vector3d between_rate =
-      r_rate + rates[1] * b + nearest.on_second * b_rate - rates[0] * a - nearest.on_first * a_rate;
-  const double length = between.norm();
-  if (length > 0.0) {
-    out.normal = between / length;
-    out.normal_rate = (between_rate - out.normal.dot(between_rate) * out.normal) / length;
-  } else {
-    out.normal = F.R * data_.pole;
-    out.normal_rate = Vector3d::Zero();
-  }
-  out.gap = length - data_.surface.radius - data_.radius;
-  const double beyond = 0.5 * (data_.surface.radius - data_.radius);
-  out.place = on_first + 0.5 * between + beyond * out.normal;
-  out.place_rate = first_rate + 0.5 * between_rate + beyond * out.normal_rate;
-}
-
 TouchPlace RigidTouch::look(const MarkerMotion& F, const MarkerMotion& M) const {
   TouchPlace out;
   switch (data_.feature) {
     case Feature::point_of_second:
-      look_at_surface(F, M, out);
+      set_sphere_at(data_.surface, F, MovingPoint::of(M, data_.at), data_.radius, out);
       break;
     case Feature::point_of_first:
-      look_at_surface(M, F, out);
-      out.normal = -out.normal;
-      out.normal_rate = -out.normal_rate;
+      set_sphere_at(data_.surface, M, MovingPoint::of(F, data_.at), data_.radius, out);
+      turn_round(out);
       break;
     case Feature::rim:
       look_at_rim(F, M, out);
       break;
     case Feature::axes:
-      look_at_axes(F, M, out);
+      set_segments(
+          {Vector3d::Zero(), data_.surface.half_length * data_.surface.axis, data_.surface.radius},
+          F, {Vector3d::Zero(), data_.half_length * data_.axis, data_.radius}, M, F.R * data_.pole,
+          out);
       break;
     case Feature::boxes:
       look_at_boxes(data_.surface, data_.second, data_.direction, F, M, out);
+      break;
+    case Feature::found:
+      data_.finder->look(F, M, out);
       break;
   }
   set_directions(F, out);

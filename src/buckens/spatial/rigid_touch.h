@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 
 #include "buckens/spatial/marker_motion.h"
@@ -24,6 +25,14 @@ struct TouchPlace {
   Eigen::Vector3d velocity(const MarkerMotion& F, const MarkerMotion& M) const;
 };
 
+/// A place that is found anew in each look, such as one of several on an edge or a patch.
+class TouchFinder {
+ public:
+  virtual ~TouchFinder() = default;
+  /// @param out all but its directions is written
+  virtual void look(const MarkerMotion& F, const MarkerMotion& M, TouchPlace& out) const = 0;
+};
+
 /// One place in which shapes of F and M touch.
 ///
 /// Directions in the surface are those of F where the normal is as placed, turned with it on the
@@ -36,7 +45,8 @@ class RigidTouch {
     point_of_first,   ///< a sphere or a point of F at the surface of M
     rim,              ///< the lowest point of a rim of M on the plane of F; it moves along the rim
     axes,             ///< the nearest places of two capsules
-    boxes             ///< spatial/box_touch.h
+    boxes,            ///< spatial/box_touch.h
+    found             ///< by a finder
   };
   struct Data {
     Feature feature = Feature::point_of_second;
@@ -52,6 +62,7 @@ class RigidTouch {
     Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
     double half_length = 0;                            ///< of the second capsule [m]
     std::optional<Eigen::Vector3d> out_of_plane = {};  ///< unit vector in F of planar models
+    std::shared_ptr<const TouchFinder> finder = {};
   };
   explicit RigidTouch(const Data& data) : data_(data) {}
 
@@ -60,10 +71,7 @@ class RigidTouch {
   int num_directions() const { return data_.out_of_plane ? 1 : 2; }
 
  private:
-  /// A point of `owner` at the surface of `other`, the normal out of that.
-  void look_at_surface(const MarkerMotion& other, const MarkerMotion& owner, TouchPlace& out) const;
   void look_at_rim(const MarkerMotion& F, const MarkerMotion& M, TouchPlace& out) const;
-  void look_at_axes(const MarkerMotion& F, const MarkerMotion& M, TouchPlace& out) const;
   void set_directions(const MarkerMotion& F, TouchPlace& out) const;
 
   Data data_;

@@ -36,6 +36,12 @@ TouchSurface::View TouchSurface::from_cylinder(const Vector3d& point, bool with_
   if (beside.distance <= 0.0 || beyond.distance <= 0.0) {
     return beside.distance > beyond.distance ? beside : beyond;
   }
+  return from_ring(beside, beyond, with_curvature);
+}
+
+/// @param beside of the axis, with the radius taken off, @param beyond the plane of the ring
+TouchSurface::View TouchSurface::from_ring(const View& beside, const View& beyond,
+                                           bool with_curvature) {
   View rim;
   rim.distance = std::hypot(beside.distance, beyond.distance);
   rim.normal = (beside.distance * beside.normal + beyond.distance * beyond.normal) / rim.distance;
@@ -89,6 +95,9 @@ TouchSurface::View TouchSurface::look(const Vector3d& point, bool with_curvature
       return from_cylinder(point, with_curvature);
     case Kind::box:
       return from_box(point, with_curvature);
+    case Kind::ring:
+      return from_ring(from_centre(point - along * axis, Round::axis, 1.0, with_curvature),
+                       {along - half_length, axis, Matrix3d::Zero()}, with_curvature);
   }
   return {};
 }

@@ -7,7 +7,8 @@ namespace buckens::spatial {
 
 /// A surface about a marker, in the marker's axes. Its distance from a point is exact.
 struct TouchSurface {
-  enum class Kind { plane, sphere, socket, bore, capsule, cylinder, box };
+  /// A ring is the circle of this radius around the axis, `half_length` along it: a rim.
+  enum class Kind { plane, sphere, socket, bore, capsule, cylinder, box, ring };
 
   Kind kind = Kind::plane;
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector; of a plane: its normal
@@ -29,6 +30,7 @@ struct TouchSurface {
   /// Around a point, or around an axis.
   enum class Round { point, axis };
   View from_centre(const Eigen::Vector3d& out, Round round, double sign, bool with_curvature) const;
+  static View from_ring(const View& beside, const View& beyond, bool with_curvature);
   View from_cylinder(const Eigen::Vector3d& point, bool with_curvature) const;
   View from_box(const Eigen::Vector3d& point, bool with_curvature) const;
 };

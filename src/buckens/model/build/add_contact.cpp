@@ -29,6 +29,8 @@ namespace {
 constexpr double kNoRotaryInertia = 1e-12;
 // Rounding of places, as a share of the smaller shape.
 constexpr double kTouchingPlace = 1e-9;
+// Overlap as placed that needs no exact places, as a share of the smaller shape.
+constexpr double kDeepInside = 0.1;
 // Slip whose direction says nothing, in sizes of the smaller shape per second.
 constexpr double kNoSlip = 1e-9;
 
@@ -118,20 +120,39 @@ class ContactBuilder {
                                      what_, apart));
       }
     }
-    loads::ContactPair::Spots spots;
-    pair.find(placed.r_F, placed.R_WF.transpose() * placed.R_WM, spots);
-    double gap = HUGE_VAL;
-    for (int k = 0; k < pair.num_spots(); ++k) {
-      gap = std::min(gap, spots[static_cast<std::size_t>(k)].gap);
-    }
     const bool is_elastic = spec_.stiffness || spec_.modulus;
     const double admitted = is_elastic ? size_ : kTouchingPlace * size_;
+    const double gap = is_elastic ? gap_of_spots(pair, placed) : gap_of_touches(pair, placed);
     if (gap >= -admitted) return;
     throw InputError(
         where_,
         fmt::format("{}: the shapes overlap by {:.4g} m as placed{}; place them apart{}", what_,
                     -gap, is_elastic ? ", more than their size" : "",
                     pair.first().kind == ShapeKind::plane ? ", or turn the plane's normal" : ""));
+  }
+
+  static double gap_of_spots(const loads::ContactPair& pair, const joints::Placement& placed) {
+    loads::ContactPair::Spots spots;
+    pair.find(placed.r_F, placed.R_WF.transpose() * placed.R_WM, spots);
+    double gap = HUGE_VAL;
+    for (int k = 0; k < pair.num_spots(); ++k) {
+      gap = std::min(gap, spots[static_cast<std::size_t>(k)].gap);
+    }
+    return gap;
+  }
+
+  /// Of the places, which are exact; deep inside each other, where these may be beside what
+  /// overlaps, of the spots.
+  double gap_of_touches(const loads::ContactPair& pair, const joints::Placement& placed) const {
+    const double by_spots = gap_of_spots(pair, placed);
+    if (by_spots < -kDeepInside * size_) return by_spots;
+    spatial::MarkerMotion F, M;
+    M.p = placed.r_F;
+    M.R = placed.R_WF.transpose() * placed.R_WM;
+    double gap = HUGE_VAL;
+    for (const spatial::RigidTouch& touch : touches(pair))
+      gap = std::min(gap, touch.look(F, M).gap);
+    return gap;
   }
 
   double reduced_mass() const {

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "buckens/loads/mesh_touch.h"
 #include "buckens/loads/shape_distance.h"
 #include "buckens/spatial/box_touch.h"
+#include "buckens/spatial/capsule_touch.h"
 
 namespace buckens::model {
 
@@ -22,6 +24,11 @@ constexpr double kInsideRim = 0.9999;
 
 std::vector<Vector3d> ends_of(const ContactShape& shape) {
   return {shape.half_length * shape.axis, -shape.half_length * shape.axis};
+}
+
+std::vector<Vector3d> centres_of(const ContactShape& shape) {
+  if (shape.kind == ShapeKind::sphere) return {Vector3d::Zero()};
+  return ends_of(shape);
 }
 
 std::vector<Vector3d> corners_of(const ContactShape& shape) {
@@ -52,9 +59,19 @@ class TouchList {
       add_capsules();
     } else if (first_.kind == ShapeKind::box && second_.kind == ShapeKind::box) {
       add_boxes();
+    } else if (second_.kind == ShapeKind::capsule && first_.kind == ShapeKind::box) {
+      add_capsule_on_box();
+    } else if (second_.kind == ShapeKind::capsule && first_.kind == ShapeKind::cylinder) {
+      add_capsule_on_cylinder();
     } else if (second_.kind == ShapeKind::cylinder && first_.kind == ShapeKind::plane) {
       add_rim(1.0);
       add_rim(-1.0);
+    } else if (second_.kind == ShapeKind::mesh) {
+      add_found(loads::plane_touches(loads::touch_surface(first_), *second_.mesh));
+    } else if (first_.kind == ShapeKind::mesh) {
+      for (const Vector3d& at : centres_of(second_)) {
+        add_found(loads::sphere_touches(first_.mesh, second_.radius, at));
+      }
     } else {
       add_points(Feature::point_of_second, first_, second_);
     }
@@ -68,10 +85,9 @@ class TouchList {
     data.feature = feature;
     data.surface = loads::touch_surface(surface);
     const bool has_corners = points.kind == ShapeKind::box;
-    const bool has_ends = points.kind == ShapeKind::capsule || points.kind == ShapeKind::cylinder;
     data.radius = has_corners ? 0.0 : points.radius;
     if (has_corners) return add(data, corners_of(points));
-    add(data, has_ends ? ends_of(points) : std::vector<Vector3d>{Vector3d::Zero()});
+    add(data, centres_of(points));
   }
 
   /// Ends at the other one's side hold capsules that lie side by side; those that cross touch
@@ -96,6 +112,34 @@ class TouchList {
     data.second = loads::touch_surface(second_);
     const int count = out_of_plane_ ? 2 : spatial::kBoxDirections;
     for (data.direction = 0; data.direction < count; ++data.direction) {
+      add(data, {Vector3d::Zero()});
+    }
+  }
+
+  void add_capsule_on_box() {
+    add_points(Feature::point_of_second, first_, second_);
+    const spatial::TouchSurface box = loads::touch_surface(first_);
+    const spatial::TouchSurface capsule = loads::touch_surface(second_);
+    add_found(spatial::capsule_over_edges(box, capsule));
+  }
+
+  void add_capsule_on_cylinder() {
+    add_points(Feature::point_of_second, first_, second_);
+    const spatial::TouchSurface cylinder = loads::touch_surface(first_);
+    const spatial::TouchSurface capsule = loads::touch_surface(second_);
+    add_found({spatial::capsule_across_cylinder(cylinder, capsule)});
+    for (const double end : {1.0, -1.0}) {
+      for (const double towards : {1.0, -1.0}) {
+        add_found({spatial::capsule_over_rim(cylinder, capsule, end, towards)});
+      }
+    }
+  }
+
+  void add_found(const std::vector<std::shared_ptr<const spatial::TouchFinder>>& finders) {
+    RigidTouch::Data data;
+    data.feature = Feature::found;
+    for (const auto& finder : finders) {
+      data.finder = finder;
       add(data, {Vector3d::Zero()});
     }
   }

@@ -84,10 +84,9 @@ Found pair_problem(const loads::ContactSpec& spec) {
 
 bool touch_rigidly(loads::ContactShape::Kind first, loads::ContactShape::Kind second) {
   using enum loads::ContactShape::Kind;
-  if (second == sphere) return first != mesh;
-  if (first == plane) return second != mesh;
-  return (first == bore && second == cylinder) ||
-         (first == second && (first == capsule || first == box));
+  if (second == sphere || first == plane) return true;
+  if (second == capsule) return true;
+  return (first == bore && second == cylinder) || (first == box && second == box);
 }
 
 /// Keys and shapes that only elastic contacts have.
@@ -104,11 +103,12 @@ Found rigid_problem(const loads::ContactSpec& spec) {
     if (!is_pair(spec, loads::to_string(first), loads::to_string(second))) continue;
     if (touch_rigidly(first, second)) return std::nullopt;
   }
-  return Finding{"shapes",
-                 fmt::format("a {} and a {} need a `stiffness`; rigid contacts are those "
-                             "of a sphere or a plane with anything but a surface of triangles, of "
-                             "a pin in a bore, of two capsules and of two boxes",
-                             spec.shapes[0].touches_as(), spec.shapes[1].touches_as())};
+  return Finding{
+      "shapes",
+      fmt::format("a {} and a {} need a `stiffness`; rigid contacts are those "
+                  "of a sphere or a plane with anything, of a capsule with a capsule, box, "
+                  "cylinder or mesh, of a pin in a bore and of two boxes",
+                  spec.shapes[0].touches_as(), spec.shapes[1].touches_as())};
 }
 
 Found restitution_problem(const loads::ContactForceSpec& spec) {

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "buckens/loads/contact_mesh.h"
+#include "buckens/spatial/rigid_touch.h"
+
+namespace buckens::loads {
+
+/// Up to so many sharp corners of a mesh are a place each; more are divided into groups.
+inline constexpr std::size_t kMostSingleCorners = 96, kCornerGroups = 24;
+
+/// Corners divided into groups so that those of one group are far from each other: of corners
+/// next to each other that touch at once, or one after the other, each has a place of its own.
+/// Each group begins with corners that are spread over the whole.
+std::vector<std::vector<Eigen::Vector3d>> groups_of_corners(
+    const std::vector<Eigen::Vector3d>& corners, std::size_t most_groups);
+
+/// The corners with which a mesh of M can touch a plane of F: one finder for each, or for each
+/// group of them, which finds the lowest, of those at the same height the first.
+std::vector<std::shared_ptr<const spatial::TouchFinder>> plane_touches(
+    const spatial::TouchSurface& plane, const ContactMesh& mesh);
+
+/// Where a sphere of M, or an end of a capsule, is nearest to a mesh of F: one finder for each
+/// colour of its patches.
+/// @param at centre in axes of its marker [m]
+std::vector<std::shared_ptr<const spatial::TouchFinder>> sphere_touches(
+    const std::shared_ptr<const ContactMesh>& mesh, double radius, const Eigen::Vector3d& at);
+
+}  // namespace buckens::loads
