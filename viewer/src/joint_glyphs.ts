@@ -44,6 +44,13 @@ function drivenTranslation(): THREE.Object3D {
   return pointer;
 }
 
+/** Any coordinate: an arrow through the arrow around it. */
+function drivenCoordinate(): THREE.Object3D {
+  const around = drivenRotation();
+  around.scale.setScalar(0.6);
+  return new THREE.Group().add(around, drivenTranslation());
+}
+
 const kDark = 0x20262e;
 
 /** A pin in a bush longer than it: turns and slides. */
@@ -269,7 +276,6 @@ export function jointGlyph(type: string, color: THREE.ColorRepresentation): THRE
     case 'slot':
       return slot(material);
     case 'coupler':
-    case 'prescribed-coordinate':
       return coupler(material);
     case 'slider-on-beam':
       return sliderOnBeam(material);
@@ -279,6 +285,8 @@ export function jointGlyph(type: string, color: THREE.ColorRepresentation): THRE
       return drivenRotation();
     case 'prescribed-translation':
       return drivenTranslation();
+    case 'prescribed-coordinate':
+      return drivenCoordinate();
     default:
       return new THREE.Mesh(new THREE.OctahedronGeometry(1.1), material);
   }
