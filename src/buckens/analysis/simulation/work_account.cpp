@@ -18,6 +18,20 @@ void add_halves(const std::vector<dynamics::LoadPower>& end, double dynamics::Lo
   }
 }
 
+/// Into room that is kept, so that steps allocate nothing.
+void set_motions(const model::Model& model, const model::State& state,
+                 std::vector<dynamics::BodyMotion>& out) {
+  out.resize(model.bodies.size());
+  for (std::size_t b = 0; b < out.size(); ++b) {
+    const model::BodyState& s = state.bodies[b];
+    out[b].frame = s.frame;
+    if (!model.bodies[b].is_flexible()) continue;
+    const auto& rows = model.bodies[b].flexible->rows;
+    out[b].y.noalias() = rows * s.d;
+    out[b].y_dot.noalias() = rows * s.d_dot;
+  }
+}
+
 }  // namespace
 
 WorkAccount::WorkAccount(const model::Model& model, const model::State& start, bool holds_at_states)
@@ -31,7 +45,7 @@ WorkAccount::WorkAccount(const model::Model& model, const model::State& start, b
       parts_(model),
       start_(dynamics::energy(model, start)) {
   forces_.account(model);
-  before_ = powers(start);
+  find_powers(start, before_);
   loads_before_ = forces_.of_loads;
   work_.parts = linalg::Vector::Zero(static_cast<Eigen::Index>(parts_.size()));
   parts_.set_stored(loads_before_, work_.parts);
@@ -53,16 +67,17 @@ WorkAccount::Powers WorkAccount::powers_at(const model::State& state,
   return out;
 }
 
-WorkAccount::Powers WorkAccount::powers(const model::State& state) {
-  const auto motions = dynamics::motions_of(model_, state);
-  Powers out = powers_at(state, motions);
-  joints_.evaluate(motions, state.t, &state.memory, residuals_, &state.lambda, &forces_);
+void WorkAccount::find_powers(const model::State& state, Powers& out) {
+  set_motions(model_, state, motions_);
+  const Powers of_loads = powers_at(state, motions_);
+  out.active = of_loads.active;
+  out.damping = of_loads.damping;
+  joints_.evaluate(motions_, state.t, &state.memory, residuals_, &state.lambda, &forces_);
   out.g_t = residuals_.g_t;
-  return out;
 }
 
 void WorkAccount::take_inputs(const model::State& state) {
-  before_ = powers(state);
+  find_powers(state, before_);
   loads_before_ = forces_.of_loads;
   parts_.set_stored(loads_before_, work_.parts);
   laws_before_ = state.memory.laws;
@@ -109,15 +124,15 @@ long WorkAccount::num_products() const {
 }
 
 void WorkAccount::add(const model::State& state) {
-  const Powers now = powers(state);
+  find_powers(state, now_);
   Powers mean;
-  mean.active = 0.5 * (before_.active + now.active);
-  mean.damping = 0.5 * (before_.damping + now.damping);
+  mean.active = 0.5 * (before_.active + now_.active);
+  mean.damping = 0.5 * (before_.damping + now_.damping);
   means_ = loads_before_;
   add_halves(forces_.of_loads, &dynamics::LoadPower::supplied, means_);
   add_halves(forces_.of_loads, &dynamics::LoadPower::lost, means_);
   add_halves(forces_.of_loads, &dynamics::LoadPower::rubbed, means_);
-  add(state, now, mean, nullptr, RatesAtEnd::are_smooth);
+  add_step(state, mean, nullptr, RatesAtEnd::are_smooth);
 }
 
 void WorkAccount::add_impacts(const model::State& before, const model::State& state,
@@ -141,26 +156,27 @@ void WorkAccount::add_impacts(const model::State& before, const model::State& st
   mean.active = 0.5 * (mean.active + powers_at(state, last).active);
   add_halves(forces_.of_loads, &dynamics::LoadPower::supplied, means_);
   // What closed rows hold must be seen at rest.
-  const Powers now = powers(state);
+  find_powers(state, now_);
   add_halves(forces_.of_loads, &dynamics::LoadPower::lost, means_);
   add_halves(forces_.of_loads, &dynamics::LoadPower::rubbed, means_);
-  mean.damping = 0.5 * (before_.damping + now.damping - landed(state));
-  add(state, now, mean, &impacts, RatesAtEnd::have_jumped);
+  mean.damping = 0.5 * (before_.damping + now_.damping - landed(state));
+  add_step(state, mean, &impacts, RatesAtEnd::have_jumped);
 }
 
-void WorkAccount::add(const model::State& state, const Powers& now, const Powers& loads,
-                      const stepping::StepReport* impacts, RatesAtEnd rates) {
+void WorkAccount::add_step(const model::State& state, const Powers& loads,
+                           const stepping::StepReport* impacts, RatesAtEnd rates) {
   const double h = state.t - t_;
   // Joints receive −λ·g_t from their drives. A λ at mid-step is multiplied by the mean of g_t; one
   // at a later instant (Wilson) is interpolated to the end of the step.
   const bool is_mean = state.lambda_time < state.t - 0.25 * h;
-  linalg::Vector lambda = state.lambda;
+  linalg::Vector& lambda = lambda_end_;
+  lambda = state.lambda;
   if (state.lambda_time > state.t + 0.25 * h) {
     const double s = (state.t - lambda_time_) / (state.lambda_time - lambda_time_);
     lambda = (1.0 - s) * lambda_before_ + s * state.lambda;
   }
-  const double drive = is_mean ? -0.5 * state.lambda.dot(before_.g_t + now.g_t)
-                               : -0.5 * (lambda_start_.dot(before_.g_t) + lambda.dot(now.g_t));
+  const double drive = is_mean ? -0.5 * state.lambda.dot(before_.g_t + now_.g_t)
+                               : -0.5 * (lambda_start_.dot(before_.g_t) + lambda.dot(now_.g_t));
   const double active = loads.active + drive;
   double dissipated = h * loads.damping + (impacts != nullptr ? impacts->impact_loss : 0.0);
   work_before_ = work_;
@@ -169,11 +185,11 @@ void WorkAccount::add(const model::State& state, const Powers& now, const Powers
     dissipated += lost;
     part(parts_.of_body(mesh.body())) += lost;
   }
-  add_parts(h, is_mean ? state.lambda : lambda_start_, lambda, now.g_t, impacts);
+  add_parts(h, is_mean ? state.lambda : lambda_start_, lambda, now_.g_t, impacts);
   work_.external += h * active;
   work_.dissipated += dissipated;
   turnover_ += h * std::abs(active) + dissipated;
-  before_ = now;
+  std::swap(before_, now_);
   std::swap(loads_before_, forces_.of_loads);
   if (model_.num_rigid_rows() > 0) laws_before_ = state.memory.laws;
   lambda_before_ = state.lambda;

@@ -66,13 +66,14 @@ class WorkAccount {
     linalg::Vector g_t;  ///< ∂g/∂t of the joints
   };
   /// Leaves the forces at the state in forces_, and powers of loads with them.
-  Powers powers(const model::State& state);
+  void find_powers(const model::State& state, Powers& out);
   /// Of loads and dampers at a configuration, with other velocities.
   Powers powers_at(const model::State& state, const std::vector<dynamics::BodyMotion>& motions);
+  /// Adds the step that ends with now_.
   /// @param loads mean power of loads and dampers over the step
   /// @param impacts null: none
-  void add(const model::State& state, const Powers& now, const Powers& loads,
-           const stepping::StepReport* impacts, RatesAtEnd rates);
+  void add_step(const model::State& state, const Powers& loads, const stepping::StepReport* impacts,
+                RatesAtEnd rates);
   /// Adds the step to the parts: means_ of loads over it, impacts, and what drives do.
   /// @param first,last multipliers at its start and end
   void add_parts(double h, const linalg::Vector& first, const linalg::Vector& last,
@@ -87,10 +88,12 @@ class WorkAccount {
   std::vector<DampingWork> meshes_;
   dynamics::Forces forces_;
   dynamics::JointResiduals residuals_;
-  Powers before_;
+  Powers before_, now_;
+  std::vector<dynamics::BodyMotion> motions_;
   linalg::Vector laws_before_;  ///< RowMemory::laws of the last state, of models with impacts
   double t_ = 0;
   linalg::Vector lambda_before_, lambda_start_;  ///< as carried; at the last state
+  linalg::Vector lambda_end_;                    ///< at the present one
   double lambda_time_ = 0;                       ///< instant of lambda_before_
   results::WorkBalance work_, work_before_;
   double turnover_ = 0;

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "buckens/analysis/simulation/work_account.h"
 #include "buckens/base/test/allocation_count.h"
 #include "buckens/dynamics/test/example_models.h"
 #include "buckens/loads/joint_friction.h"
@@ -101,6 +102,25 @@ TEST(FrictionInAllJoints, AddsFewIterationsAndNeitherSolvesNorMemory) {
   if (test::kCountsAllocations) {
     EXPECT_EQ(rubbing.allocations, 0);
   }
+}
+
+TEST(FrictionInAllJoints, IsAccountedForWithoutMemory) {
+  if (!test::kCountsAllocations) GTEST_SKIP() << "sanitizers have their own malloc";
+  const model::Model model = slider_crank(true);
+  const test::Start start = test::consistent_start(model);
+  StepSettings settings;
+  settings.step = 1e-4;
+  Stepper stepper(model, settings, start.rows_in_use);
+  model::State state = start.state;
+  analysis::WorkAccount account(model, state, false);
+  long allocations = 0;
+  for (int k = 0; k < 60; ++k) {
+    stepper.step(state);
+    const long now = test::count_allocations([&] { account.add(state); });
+    if (k >= 10) allocations += now;
+  }
+  EXPECT_EQ(allocations, 0);
+  EXPECT_GT(account.work().dissipated, 0.0);
 }
 
 }  // namespace
