@@ -91,6 +91,24 @@ def sensors(buckens, tmp_path):
 
 
 @pytest.fixture
+def goes_on(buckens, tmp_path):
+    """Stops a run halfway, goes on, and compares its records with those of one run: all the same characters."""
+
+    def call(text, whole, half, records):
+        def rows(name):
+            return [line for line in (tmp_path / name / "sensors.csv").read_text().splitlines() if not line.startswith("#")]
+
+        for name, duration in (("whole", whole), ("half", half)):
+            (tmp_path / "model.yaml").write_text(text.replace(f"duration: {whole}", f"duration: {duration}"))
+            buckens("run", "model.yaml", "-o", name).must(0)
+        assert len(rows("half")) < 1 + records  # with the line of names
+        buckens("run", "--continue", "half", "--until", whole.removesuffix(" s")).must(0)
+        assert len(rows("whole")) == 1 + records and rows("half") == rows("whole")
+
+    return call
+
+
+@pytest.fixture
 def start(tmp_path):
     """Starts the program and leaves it running; it is killed at the end of the test."""
     running = []

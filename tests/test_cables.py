@@ -182,6 +182,36 @@ simulation: {duration: 1, step: 1e-3}
     assert mode["damping_ratio"] == pytest.approx(1e-3 * omega / 2, rel=1e-6)
 
 
+def test_pulleys_in_a_row_vibrate_together(buckens, tmp_path):
+    """Over a wheel, under a block, over another wheel: spans of 2, 1, 1 and 2 m, all upright."""
+    (tmp_path / "model.yaml").write_text("""
+buckens: 1
+planar: xy
+bodies:
+  wheel: {rigid: {mass: 1, inertia: [0, 0, 0.02]}, at: {position: [-0.3, 0, 0]}}
+  block: {rigid: {mass: 2, inertia: [0, 0, 0.01]}, at: {position: [-0.1, -1, 0]}}
+  other: {rigid: {mass: 1, inertia: [0, 0, 0.01]}, at: {position: [0.1, 0, 0]}}
+joints:
+  axle: {revolute: {between: [{ground: [-0.3, 0, 0]}, wheel]}}
+  guide: {prismatic: {between: [{ground: [-0.1, 0, 0]}, block], axis: [0, 1, 0]}}
+  pin: {revolute: {between: [{ground: [0.1, 0, 0]}, other]}}
+loads:
+  rope:
+    cable:
+      ends: [{ground: [-0.4, -2, 0]}, {ground: [0.2, -2, 0]}]
+      pulleys: [{on: wheel, radius: 0.1, side: right}, {on: block, radius: 0.1}, {on: other, radius: 0.1, side: right}]
+      stiffness: 1e4
+      pretension: 10
+simulation: {duration: 1, step: 1e-3}
+""")
+    found = buckens("modes", "model.yaml", "--system", "--json").must(0).json["analyses"][0]["modes"]
+    stiffness = numpy.diag([1e4 * (1 + 10 / 1e4) / length for length in (2, 1, 1, 2)])
+    # Elongations of the spans by the angles of the wheels and the height of the block.
+    by = numpy.array([[-0.1, 0, 0], [0.1, -1, 0], [0, -1, -0.1], [0, 0, 0.1]])
+    squares = numpy.linalg.eigvals(numpy.linalg.solve(numpy.diag([0.02, 2, 0.01]), by.T @ stiffness @ by)).real
+    assert [mode["frequency"] for mode in found] == pytest.approx(list(numpy.sqrt(numpy.sort(squares)) / (2 * math.pi)), rel=1e-9)
+
+
 TO_AND_FRO = """
 buckens: 1
 planar: xy

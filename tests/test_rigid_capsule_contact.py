@@ -125,16 +125,8 @@ def test_a_rod_that_is_thrown_goes_on(sensors, first, seed):
     assert numpy.abs(out["balance"]).max() < 0.06 * out["lost"][-1]
 
 
-def test_runs_go_on_bit_for_bit(buckens, tmp_path):
+def test_runs_go_on_bit_for_bit(goes_on):
     """Places are found from the motion alone: nothing of them has to be saved."""
     text = model(f"{{box: [0.6, 0.6, 1]}}, {ROD}", "static: 0.4, restitution: 0.3", at="0, 0, 0.2", velocity="0.5, 0.2, 0", spin="3, -2, 5",
                  duration="0.4 s", every="1 ms")
-    (tmp_path / "model.yaml").write_text(text)
-    buckens("run", "model.yaml", "-o", "whole").must(0)
-    (tmp_path / "model.yaml").write_text(text.replace("duration: 0.4 s", "duration: 0.2 s"))
-    buckens("run", "model.yaml", "-o", "half").must(0)
-    buckens("run", "--continue", "half", "--until", "0.4").must(0)
-
-    def rows(name):
-        return [line for line in (tmp_path / name / "sensors.csv").read_text().splitlines() if not line.startswith("#")]
-    assert len(rows("whole")) == 402 and rows("half") == rows("whole")
+    goes_on(text, whole="0.4 s", half="0.2 s", records=401)

@@ -164,22 +164,12 @@ def test_a_sphere_rolls_in_a_bowl_of_triangles_as_in_a_socket(sensors, tmp_path)
     assert errors[1] < 2e-4 and errors[1] < errors[0] / 3
 
 
-
-
-def test_runs_go_on_bit_for_bit(buckens, tmp_path):
+def test_runs_go_on_bit_for_bit(goes_on, tmp_path):
     """Places are found from the motion alone: nothing of them has to be saved."""
     write(tmp_path, triangle_meshes.globe(0.1, 2))
     text = model(f"{{plane: {{}}}}, {STL}", ", restitution: 0.3, static: 0.4", at="0, 0, 0.2", velocity="1, 0, 0", spin="3, -2, 5", duration="0.4 s",
                  every="1 ms")
-    (tmp_path / "model.yaml").write_text(text)
-    buckens("run", "model.yaml", "-o", "whole").must(0)
-    (tmp_path / "model.yaml").write_text(text.replace("duration: 0.4 s", "duration: 0.2 s"))
-    buckens("run", "model.yaml", "-o", "half").must(0)
-    buckens("run", "--continue", "half", "--until", "0.4").must(0)
-
-    def rows(name):
-        return [line for line in (tmp_path / name / "sensors.csv").read_text().splitlines() if not line.startswith("#")]
-    assert len(rows("whole")) == 402 and rows("half") == rows("whole")
+    goes_on(text, whole="0.4 s", half="0.2 s", records=401)
 
 
 def test_what_overlaps_as_placed_is_refused(buckens, tmp_path):

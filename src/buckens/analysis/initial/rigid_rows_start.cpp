@@ -18,8 +18,6 @@ namespace buckens::analysis {
 namespace {
 
 constexpr int kMostRowRounds = 450;
-// Within this time bodies do not move, and what begins to slide has a direction [s].
-constexpr double kInstant = 1e-6;
 // Changes of accelerations by this share of the largest one, and those that may be rounding where
 // they do not fall any more.
 constexpr double kSameMotion = 1e-13;
@@ -188,7 +186,7 @@ void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& me
     const model::State start = state;
     RoughContacts contacts(model, metric, rows_in_use);
     if (settle_in_rounds(model, metric, rows_in_use, nullptr, state, unrest)) {
-      if (begins_to_slide(model, state)) contacts.hold_over(kInstant, state);
+      if (begins_to_slide(model, state)) contacts.hold_over(RoughContacts::kInstant, state);
       return;
     }
     state = start;

@@ -7,13 +7,6 @@
 
 namespace buckens::analysis {
 
-namespace {
-
-// What friction would stop within this time sticks [s].
-constexpr double kAtOnce = 1e-6;
-
-}  // namespace
-
 RoughContacts::RoughContacts(const model::Model& model, const dynamics::MassMetric& metric,
                              const std::vector<int>& rows_in_use)
     : model_(model), metric_(metric), rows_in_use_(rows_in_use), cones_(model), rigid_(model) {
@@ -29,7 +22,7 @@ bool RoughContacts::decide(const dynamics::Forces& forces, model::State& state) 
   dynamics::evaluate_soft_rows(model_, motions, state.t, dynamics::circumstances_of(state), soft_);
   const stepping::ContactCones::Instant now{forces.rigid, soft_,         compliance_, motions,
                                             rows_in_use_, &state.memory, state.t};
-  if (!cones_.decide(now, 1.0, kAtOnce, rigid_)) return false;
+  if (!cones_.decide(now, 1.0, kInstant, rigid_)) return false;
   const linalg::Vector before = state.memory.laws;
   write(state);
   return std::any_of(model_.loads.begin(), model_.loads.end(), [&](const model::Load& load) {

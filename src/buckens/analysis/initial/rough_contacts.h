@@ -13,6 +13,10 @@ namespace buckens::analysis {
 /// Rigid contacts with friction, whose stands at an instant are decided for all of them together.
 class RoughContacts {
  public:
+  /// In this time bodies do not move: what friction would stop within it sticks, and what begins to
+  /// slide has a direction at its end [s].
+  static constexpr double kInstant = 1e-6;
+
   /// @param model,metric,rows_in_use must outlive this object
   RoughContacts(const model::Model& model, const dynamics::MassMetric& metric,
                 const std::vector<int>& rows_in_use);
