@@ -10,6 +10,7 @@
 #include "buckens/dynamics/mass_metric.h"
 #include "buckens/spatial/rotation.h"
 #include "buckens/stepping/friction_impulses.h"
+#include "buckens/stepping/mesh_partners.h"
 #include "buckens/stepping/step_failure.h"
 
 namespace buckens::stepping {
@@ -119,7 +120,11 @@ Vector solve_complementarity(const Matrix& D, const Vector& b) {
 
 Impacts::Impacts(const model::Model& model, const Scheme& scheme,
                  std::vector<const BodyAnswer*> answers)
-    : model_(model), scheme_(scheme), answers_(std::move(answers)), answers_to_(model) {
+    : model_(model),
+      scheme_(scheme),
+      answers_(std::move(answers)),
+      answers_to_(model),
+      clearance_(model) {
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     if (model.loads[k].rigid_row < 0) continue;
     const auto* law = static_cast<const loads::RigidLaw*>(model.loads[k].element.get());
@@ -134,6 +139,19 @@ Impacts::Impacts(const model::Model& model, const Scheme& scheme,
     interface_.push_back(impulse_compliance(scheme, answers_[b]));
     jumps_.emplace_back();
   }
+  with_mesh_ = mesh_partners(model, interface_);
+  is_free_.assign(model.bodies.size(), 1);
+  for (const model::Joint& joint : model.joints) {
+    for (const int body : bodies_of(model, joint)) is_free_[static_cast<std::size_t>(body)] = 0;
+  }
+}
+
+bool Impacts::moves_mesh(const Law& law) const {
+  const model::Load& load = model_.loads[law.load];
+  const auto moves = [&](int body) {
+    return body != model::kGround && with_mesh_[static_cast<std::size_t>(body)] != 0;
+  };
+  return moves(load.first.body) || moves(load.second.body);
 }
 
 Matrix Impacts::impulse_compliance(const Scheme& scheme, const BodyAnswer* answer) {
@@ -188,7 +206,9 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
   }
   for (std::size_t k = 0; k < touches_.size(); ++k) add_slips(k, then, around.memory);
   try {
-    sum_up(solve());
+    const Vector P = solve();
+    sum_up(P);
+    clear_ends(P, then, rows_in_use, around.memory, t);
   } catch (const StepFailure& failure) {
     const std::string& name = model_.loads[laws_[touches_.front().law].load].name;
     throw StepFailure(fmt::format("load \"{}\" at t = {:.6g} s: {}", name, t, failure.what()));
@@ -237,8 +257,9 @@ void Impacts::add_slips(std::size_t index, const std::vector<dynamics::BodyMotio
     slip.friction = k;
     set_row(frictions[k].load, 1.0, then, memory, slip);
     const double end = rate_of(slip.row, then);
-    slip.at_impact = end + touch.since / scheme_.h * (rate_of(slip.row, start_) - end);
-    slip.speed = touch.stays ? end : slip.at_impact;
+    const double start = rate_of(slip.row, start_);
+    slip.at_impact = touch.is_of_step ? start : end + touch.since / scheme_.h * (start - end);
+    slip.speed = touch.stays || touch.is_of_step ? end : slip.at_impact;
     answers_to_.answer(slip);
     slips_.push_back(std::move(slip));
   }
@@ -265,8 +286,15 @@ bool Impacts::look(std::size_t index, const dynamics::Circumstances& around,
   touch.regime = contact.regime;
   touch.stays = is_closed;
   touch.rate = sign * sight.coordinate.rate;
+  touch.gap = contact.gap;
   if (strikes) {
     set_approach(touch, *law.law, law.start, sight.coordinate, sign, contact.gap);
+    const double e = law.law->restitution(-touch.rate);
+    if (e > 0.0 && moves_mesh(law)) {
+      // What has turned round within the step has nothing yet that could be reflected.
+      if (!(sign * law.start.rate < 0.0)) return false;
+      make_impulse_of_step(touch, e, sign * law.start.rate);
+    }
   } else {
     touch.target = -touch.rate;
   }
@@ -283,7 +311,7 @@ const Impacts::Touch& Impacts::strongest_touch() const {
 std::vector<dynamics::BodyMotion> Impacts::at_impact(std::vector<dynamics::BodyMotion> motions) {
   const Touch& strongest = strongest_touch();
   const bool is_pressed = strongest.stays && strongest.lost_share < kPressed;
-  since_impulses_ = is_pressed ? 0.0 : strongest.rest;
+  since_impulses_ = is_pressed ? 0.0 : strongest.is_of_step ? strongest.since : strongest.rest;
   const double back = -since_impulses_;
   for (dynamics::BodyMotion& motion : motions) {
     spatial::Pose& X = motion.frame.X_WB;
@@ -321,6 +349,7 @@ void Impacts::set_approach(Touch& touch, const loads::RigidLaw& law,
   touch.approach = std::max(0.0, -rate_at(s, gap_start, rate_start, gap, rate_end, scheme_.h));
   touch.rest = touch.since = (1.0 - s) * scheme_.h;
   const double e = law.restitution(touch.approach);
+  touch.met = -touch.approach;
   touch.target = (1.0 + e) * touch.approach;
   // What returns within the step that it left in, or would not leave at all, stays.
   const bool has_just_left = rate_start > 0.0;
@@ -330,7 +359,19 @@ void Impacts::set_approach(Touch& touch, const loads::RigidLaw& law,
   touch.lost_share = touch.approach * touch.approach / (rate_end * rate_end);
   touch.target = -rate_end;
   touch.approach = -rate_end;
+  touch.met = rate_end;
   touch.rest = std::min(-gap / touch.target, scheme_.h);
+}
+
+void Impacts::make_impulse_of_step(Touch& touch, double e, double rate_start) const {
+  touch.is_of_step = true;
+  touch.stays = false;
+  touch.lost_share = 1.0;
+  touch.approach = -rate_start;
+  touch.met = touch.rate;
+  touch.target = -e * rate_start - touch.rate;
+  // To Δẋ the method adds Δx = Δẋ/s₁, as if the impulse acted throughout the step.
+  touch.rest = 1.0 / scheme_.end_rate;
 }
 
 void Impacts::condense(const std::vector<dynamics::BodyMotion>& motions,
@@ -386,12 +427,38 @@ void Impacts::move_bodies(const Vector& P) {
     const Push& own = push(k);
     for (std::size_t b = 0; b < jumps_.size(); ++b) {
       jumps_[b].velocity += p * own.u[b];
-      jumps_[b].shift += (p * touch.rest) * own.u[b];
+      // What no joint holds moves on by itself; else joints would open between it and meshes.
+      const bool goes_by_itself = touch.is_of_step && is_free_[b] != 0;
+      jumps_[b].shift += (p * (goes_by_itself ? touch.since : touch.rest)) * own.u[b];
       jumps_[b].impulse += p * own.load[b];
       jumps_[b].impulse_time += (p * touch.rest) * own.load[b];
     }
   }
   if (strength > 0.0) rest_ /= strength;
+}
+
+void Impacts::clear_ends(const Vector& P, const std::vector<dynamics::BodyMotion>& then,
+                         const std::vector<int>& rows_in_use, const model::RowMemory* memory,
+                         double t) {
+  Push moved;
+  for (std::size_t b = 0; b < jumps_.size(); ++b) {
+    moved.u.push_back(jumps_[b].shift);
+    moved.y.emplace_back(Vector::Zero(jumps_[b].impulse.size()));
+    for (std::size_t k = 0; k < num_pushes(); ++k) {
+      const Touch& touch = touches_[k < touches_.size() ? k : slips_[k - touches_.size()].touch];
+      moved.y[b] += (P[static_cast<Eigen::Index>(k)] * touch.rest) * push(k).y[b];
+    }
+  }
+  std::vector<StopClearance::End> ends;
+  for (const Touch& touch : touches_) {
+    if (!touch.is_of_step) continue;
+    ends.push_back({touch.row, touch.gap + PushAnswers::along(touch.row, moved)});
+  }
+  const auto shifts = clearance_.find(ends, compliance_, then, rows_in_use, memory, t);
+  for (std::size_t b = 0; b < shifts.size(); ++b) {
+    jumps_[b].shift += shifts[b].frame;
+    jumps_[b].impulse_time += shifts[b].impulse_time;
+  }
 }
 
 void Impacts::land(const Vector& P, const Vector& jump) {
@@ -405,7 +472,8 @@ void Impacts::land(const Vector& P, const Vector& jump) {
     const auto i = static_cast<Eigen::Index>(k);
     if (touch.approach > 0.0) {
       ++count_;
-      lose(laws_[touch.law].load, touch.lost_share * P[i] * (touch.approach - 0.5 * jump[i]));
+      lose(laws_[touch.law].load,
+           0.5 * touch.lost_share * P[i] * (touch.approach - touch.met - jump[i]));
     }
     // Driven off by others, or left with the share of its speed: no longer held.
     const bool leaves = touch.rate + jump[i] > std::max(1e-9 * size, weight_returns(touch));
@@ -420,7 +488,8 @@ void Impacts::land(const Vector& P, const Vector& jump) {
     const double after = slip.speed + jump[i];
     // Where it holds, what it does on the motion that weight brings within the rest of the step is
     // no loss; where it slides, all of it rubs over the way between.
-    const bool holds = std::abs(after) <= kStopped * std::abs(slip.speed);
+    const bool holds =
+        !touches_[slip.touch].is_of_step && std::abs(after) <= kStopped * std::abs(slip.speed);
     const double share =
         holds && slip.speed != 0.0 ? std::clamp(slip.at_impact / slip.speed, 0.0, 1.0) : 1.0;
     lose(friction_of(slip).load, -0.5 * share * P[i] * (slip.at_impact + after));

@@ -9,6 +9,7 @@
 #include "buckens/stepping/body_step.h"
 #include "buckens/stepping/push_answers.h"
 #include "buckens/stepping/step_settings.h"
+#include "buckens/stepping/stop_clearance.h"
 
 namespace buckens::stepping {
 
@@ -83,16 +84,19 @@ class Impacts {
   };
   /// A stop that is reached.
   struct Touch : Push {
-    std::size_t law;        ///< index into laws_
-    int regime;             ///< of the end that is touched
-    double approach = 0;    ///< speed against it at the impact [m/s] or [rad/s]
-    double target = 0;      ///< jump of the rate away from the end that it asks for
-    double rest = 0;        ///< what is left of the step after the impact, for positions [s]
-    double since = 0;       ///< what is left of it [s]
-    double lost_share = 1;  ///< of the energy of `approach`, that the impact itself had
-    bool stays = false;     ///< is not left again
-    double rate = 0;        ///< away from the end, at the end of the step
-    double sign = 1;        ///< of the coordinate, away from the end
+    std::size_t law;          ///< index into laws_
+    int regime;               ///< of the end that is touched
+    double approach = 0;      ///< speed against it before the impact [m/s] or [rad/s]
+    double met = 0;           ///< rate away from the end to which the jump is added, for the loss
+    double gap = 0;           ///< at the end of the step, without the impact [m] or [rad]
+    double target = 0;        ///< jump of the rate away from the end that it asks for
+    double rest = 0;          ///< what is left of the step after the impact, for positions [s]
+    double since = 0;         ///< what is left of it [s]
+    double lost_share = 1;    ///< of the energy of `approach`, that the impact itself had
+    bool stays = false;       ///< is not left again
+    bool is_of_step = false;  ///< its impulse acts throughout the step, as meshes need it
+    double rate = 0;          ///< away from the end, at the end of the step
+    double sign = 1;          ///< of the coordinate, away from the end
   };
   /// Slip of a stop that is reached, along one direction.
   struct Slip : Push {
@@ -123,11 +127,19 @@ class Impacts {
   linalg::Vector solve() const;
   void set_approach(Touch& touch, const loads::RigidLaw& law, const loads::CoordinateMotion& start,
                     const loads::CoordinateMotion& end, double sign, double gap) const;
+  /// Where a mesh takes part, the impulse of what leaves again belongs to the step as a whole.
+  /// @param e restitution, @param rate_start away from the end, negative
+  void make_impulse_of_step(Touch& touch, double e, double rate_start) const;
+  /// Whether a mesh takes part in what a law strikes.
+  bool moves_mesh(const Law& law) const;
   void condense(const std::vector<dynamics::BodyMotion>& motions,
                 const std::vector<BodyStep>& bodies, const std::vector<int>& rows_in_use,
                 const model::RowMemory* memory, double t);
   void sum_up(const linalg::Vector& P);
   void move_bodies(const linalg::Vector& P);
+  /// Takes bodies out of ends into which impulses of the step would still let them go.
+  void clear_ends(const linalg::Vector& P, const std::vector<dynamics::BodyMotion>& then,
+                  const std::vector<int>& rows_in_use, const model::RowMemory* memory, double t);
   void land(const linalg::Vector& P, const linalg::Vector& jump);
   /// Speed up to which weight brings back what leaves within a step [m/s]: it does not count as
   /// leaving, or what has come to rest would rock on by it for ever.
@@ -144,8 +156,11 @@ class Impacts {
   std::vector<Touch> touches_;
   std::vector<Slip> slips_;
   std::vector<linalg::Matrix> interface_;  // k₀ N Y K̂⁻¹Nᵀ
+  std::vector<char> with_mesh_;            // per body: it is a mesh, or joints connect it with one
+  std::vector<char> is_free_;              // per body: no joint moves it
   std::vector<dynamics::BodyCompliance> compliance_;
   PushAnswers answers_to_;
+  StopClearance clearance_;
   std::vector<BodyJump> jumps_;
   std::vector<Landing> landings_;
   std::vector<ImpactShare> shares_;
