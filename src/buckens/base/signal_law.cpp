@@ -28,6 +28,14 @@ double call_with(const Expression& formula, const Values& values, std::size_t co
 
 }  // namespace
 
+SignalLaw SignalLaw::of(std::string signal, int place) {
+  SignalLaw out;
+  out.formula = Expression("s", {"t", "s"}, {}, {});
+  out.names = {std::move(signal)};
+  out.places = {place};
+  return out;
+}
+
 bool SignalLaw::uses(const std::string& signal) const {
   return formula && std::find(names.begin(), names.end(), signal) != names.end();
 }

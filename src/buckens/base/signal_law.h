@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "buckens/base/dimension.h"
 #include "buckens/base/expression.h"
 #include "buckens/base/time_law.h"
 
@@ -20,16 +21,28 @@ struct SignalLaw {
   SignalLaw() = default;
   /// A law of time, which takes the place of a formula of signals everywhere.
   SignalLaw(TimeLaw of_time) : law(std::move(of_time)) {}  // NOLINT(google-explicit-constructor)
+  /// A number.
+  SignalLaw(double number)  // NOLINT(google-explicit-constructor)
+      : law(TimeLaw::constant(number)) {}
+  /// The value of one signal. @param place among all signals
+  static SignalLaw of(std::string signal, int place);
 
   TimeLaw law;                        ///< without signals
   std::optional<Expression> formula;  ///< in t and `names`, in this order
   double scale = 1;                   ///< SI value of the formula's unit
   std::vector<std::string> names;     ///< of the signals in the formula
   std::vector<int> places;            ///< of these among all signals
+  /// Of the unit that it was written with, where the field takes any.
+  std::optional<Dimension> unit;
 
   bool uses_signals() const { return formula.has_value(); }
   bool uses(const std::string& signal) const;
   bool is_constant() const { return !formula && law.is_constant(); }
+  bool is_number(double value) const { return is_constant() && law.value(0.0) == value; }
+  /// Its value, if it never changes.
+  std::optional<double> number() const {
+    return is_constant() ? std::optional(law.value(0.0)) : std::nullopt;
+  }
 
   /// @param signals t and the values of all signals; unused by a law of time
   /// @throws NumericalError naming the formula and its variables where it has no value

@@ -46,16 +46,6 @@ void add_row(const BodyRow& row, double multiplier, Forces& out) {
 // Of differences for tangents: far above rounding, and formulas are smooth over less.
 constexpr double kShift = 1e-6;
 
-/// With the values of signals, unless these are known.
-Circumstances with_signals(const model::Model& model, const std::vector<BodyMotion>& motions,
-                           double t, const Circumstances& given, SignalValues& values) {
-  Circumstances out = given;
-  if (model.signals.empty() || given.signals != nullptr) return out;
-  evaluate_signals(model, motions, t, given, values);
-  out.signals = &values.values;
-  return out;
-}
-
 /// A law on a joint coordinate whose tangent is wanted, its row being the last one of `rows`.
 struct SlopesOf {
   const model::Model& model;

@@ -133,11 +133,14 @@ model::RowMemory start_memory(const model::Model& model, const std::vector<BodyM
   out.rows = linalg::Vector::Zero(model.num_row_states());
   if (out.rows.size() > 0)
     follow_rows(model, motions, 0.0, nullptr, &out.released, nullptr, out.rows);
+  SignalValues signals;
+  const Circumstances around =
+      with_signals(model, motions, 0.0, {nullptr, &out, nullptr, nullptr}, signals);
   for (std::size_t k = 0; k < model.loads.size() && out.laws.size() > 0; ++k) {
     const model::Load& load = model.loads[k];
     if (load.element->num_states() == 0) continue;
     const LoadEnds ends = ends_of(model, load, motions, &out);
-    load.element->start_states(sight_of(model, k, 0.0, {nullptr, &out, nullptr, nullptr}, ends),
+    load.element->start_states(sight_of(model, k, 0.0, around, ends),
                                out.laws.data() + load.first_state);
   }
   start_near(model, motions, out);

@@ -80,7 +80,11 @@ class Evaluation {
   }
 
  private:
-  static bool depends_on_motion(const Signal& signal) {
+  /// Whether it follows from the motion without other signals.
+  bool depends_on_motion(const Signal& signal) const {
+    if (signal.kind == Signal::Kind::reading && signal.reading->load >= 0) {
+      return !model_.loads[static_cast<std::size_t>(signal.reading->load)].element->uses_signals();
+    }
     return signal.kind != Signal::Kind::formula && signal.kind != Signal::Kind::block &&
            signal.kind != Signal::Kind::force;
   }
@@ -127,6 +131,7 @@ class Evaluation {
   double made_value(const Signal& signal, const Vector& x) const {
     if (signal.kind == Signal::Kind::formula) return signal.input.value(t_, out_.values);
     if (signal.kind == Signal::Kind::force) return signal.factor * force_of(signal);
+    if (signal.kind == Signal::Kind::reading) return motion_value(signal);
     if (const model::FunctionSignal* function = model::function_of(signal)) {
       return function->value_at(t_, out_.values);
     }
@@ -288,6 +293,15 @@ void evaluate_signals(const model::Model& model, const std::vector<BodyMotion>& 
   find_method_rates(scheme, memory, h, out);
   out.fixed = out.x + h * ((1.0 - scheme.gamma) * out.method_rates + scheme.gamma * out.known);
   solve_states(model, at, h * scheme.gamma * scheme.share_of_rate(), out);
+}
+
+Circumstances with_signals(const model::Model& model, const std::vector<BodyMotion>& motions,
+                           double t, const Circumstances& given, SignalValues& values) {
+  Circumstances out = given;
+  if (model.signals.empty() || given.signals != nullptr) return out;
+  evaluate_signals(model, motions, t, given, values);
+  out.signals = &values.values;
+  return out;
 }
 
 void start_signals(const model::Model& model, const std::vector<BodyMotion>& motions, double t,

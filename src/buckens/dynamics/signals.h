@@ -35,6 +35,12 @@ void evaluate_signals(const model::Model& model, const std::vector<BodyMotion>& 
                       const Circumstances& around, SignalValues& out,
                       const CoordinateShift& shift = {});
 
+/// The same circumstances with the values of all signals, unless they have them. Laws of force that
+/// follow signals need them, in statics and before the first step, too.
+/// @param values what the result points to, where the model has signals
+Circumstances with_signals(const model::Model& model, const std::vector<BodyMotion>& motions,
+                           double t, const Circumstances& given, SignalValues& values);
+
 /// A state of a block and the value it is given.
 struct StateChange {
   int state = 0;  ///< among those of all blocks

@@ -103,6 +103,7 @@ struct BushingSpec : JointEnds {
   Eigen::Vector3d rotational_damping = Eigen::Vector3d::Zero();    ///< [N m s/rad]
   /// Beside these, along and about each axis [N], [N m].
   std::array<std::optional<base::Characteristic>, 3> forces, torques;
+  base::SignalLaw stiffness_factor = 1.0, damping_factor = 1.0;
 
   template <class Visitor>
   void fields(Visitor& visit) {
@@ -123,6 +124,18 @@ struct BushingSpec : JointEnds {
               .in(base::kRotationalDamping)
               .non_negative()
               .like("[0, 0, 0.1 N m s/rad]"));
+    visit(base::field("stiffness-factor", stiffness_factor,
+                      "multiplies what it resists with at rest, about and along all axes; by time "
+                      "and signals")
+              .non_negative()
+              .like("\"1 + 2*mode\"")
+              .otherwise("1"));
+    visit(base::field("damping-factor", damping_factor,
+                      "multiplies what it resists with against motion beyond that; by time and "
+                      "signals")
+              .non_negative()
+              .like("\"1 + 9*mode\"")
+              .otherwise("1"));
     curve_fields(visit);
   }
 

@@ -21,7 +21,8 @@ Quaterniond relative_rotation(const Sight& sight) {
 }  // namespace
 
 BallFriction::Stand BallFriction::look(const Sight& sight) const {
-  const FrictionData& data = bound_.data();
+  const FrictionBound bound = bound_.at(sight);
+  const FrictionData& data = bound.data();
   const Quaterniond now = relative_rotation(sight);
   Vector3d turned = Vector3d::Zero();  // in the step, axes of the first marker
   Vector3d before = Vector3d::Zero();
@@ -49,7 +50,7 @@ BallFriction::Stand BallFriction::look(const Sight& sight) const {
   const Vector3d trial = -out.stiffness * out.strain - out.damping * out.rate;
   const auto cut = [&](int first, int count) {
     const double size = trial.segment(first, count).norm();
-    const double most = bound_.at(load, out.rate.segment(first, count).norm());
+    const double most = bound.at(load, out.rate.segment(first, count).norm());
     const double share = size > most ? most / size : 1.0;
     out.torque.segment(first, count) = share * trial.segment(first, count);
     out.share = share;
@@ -67,6 +68,7 @@ BallFriction::Stand BallFriction::look(const Sight& sight) const {
   } else {
     cut(0, 3);
   }
+  out.viscous = data.viscous;
   out.torque -= data.viscous * out.rate;
   if (arms_) out.torque[2] = 0.0;
   return out;
@@ -104,7 +106,7 @@ void BallFriction::append_tangent(const Sight& sight, std::vector<SoftRow>& rows
     // A ball that slides answers across its direction of sliding, see mix_rows().
     const bool answers = is_held && !(arms_ && s.slides[static_cast<std::size_t>(k)]);
     row.stiffness = answers ? s.stiffness : 0.0;
-    row.damping = (answers ? s.damping : 0.0) + (is_held ? bound_.data().viscous : 0.0);
+    row.damping = (answers ? s.damping : 0.0) + (is_held ? s.viscous : 0.0);
     rows.push_back(row);
   }
 }
@@ -113,25 +115,26 @@ bool BallFriction::mix_rows(const Sight& sight, RowMix& mix) const {
   if (arms_) return false;
   const Stand s = look(sight);
   if (!s.slides[0]) return false;
-  const Vector3d towards = (s.torque + bound_.data().viscous * s.rate).normalized();
+  const Vector3d towards = (s.torque + s.viscous * s.rate).normalized();
   mix = s.share * (Matrix3d::Identity() - towards * towards.transpose());
   return true;
 }
 
 void BallFriction::append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const {
   const Stand s = look(sight);
-  const Vector3d pressed = bound_.data().radius * sight.reaction.force.normalized();
+  const Vector3d pressed = bound_.at(sight).data().radius * sight.reaction.force.normalized();
   for (int k = 0; k < 3; ++k) {
     // All of the torque but the viscous part grows with the bound, whether it sticks (nearly: its
     // damper with the root) or slides.
     const bool is_held = !(arms_ && k == 2);
-    const double dry = is_held ? s.torque[k] + bound_.data().viscous * s.rate[k] : 0.0;
+    const double dry = is_held ? s.torque[k] + s.viscous * s.rate[k] : 0.0;
     slopes.push_back({Vector3d::Zero(), dry * s.bound_per_load * pressed});
   }
 }
 
 double BallFriction::most_at_rest(const Sight& sight) const {
-  return bound_.at(bound_.data().radius * sight.reaction.force.norm(), 0.0);
+  const FrictionBound bound = bound_.at(sight);
+  return bound.at(bound.data().radius * sight.reaction.force.norm(), 0.0);
 }
 
 void BallFriction::start_states(const Sight& sight, double* states) const {

@@ -21,8 +21,12 @@ class BallFriction final : public ForceElement, public ReactionFollower {
     Eigen::Vector3d first, second;
   };
   /// @param data with a radius; slip and inertia are those of rotation
-  BallFriction(const FrictionData& data, std::optional<Arms> arms)
-      : bound_(data, Eigen::Vector3d::Zero()), arms_(std::move(arms)) {}
+  BallFriction(const FrictionData& data, std::optional<Arms> arms,
+               std::optional<FrictionLaws> laws = std::nullopt)
+      : bound_(data, Eigen::Vector3d::Zero(), std::move(laws)), arms_(std::move(arms)) {}
+
+  bool uses_signals() const override { return bound_.uses_signals(); }
+  bool is_constant() const override { return bound_.is_constant(); }
 
   /// Zero: the law needs its states, see respond().
   Action evaluate(double t, const spatial::MarkerMotion& first,
@@ -47,13 +51,13 @@ class BallFriction final : public ForceElement, public ReactionFollower {
     Eigen::Vector3d strain;  // after rest has followed [rad]
     Eigen::Vector3d rate;    // [rad/s]
     std::array<bool, 3> slides{};
-    double stiffness = 0, damping = 0;
+    double stiffness = 0, damping = 0, viscous = 0;
     double bound_per_load = 0;  // relative growth of the bound with N [1/(N m)]
     double share = 1;           // of the trial torque of a ball that its bound admits
   };
   Stand look(const Sight& sight) const;
 
-  FrictionBound bound_;
+  DrivenBound bound_;
   std::optional<Arms> arms_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/loads/bushing.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -50,6 +51,10 @@ double add_curves(const Curves& curves, const Vector3d& x, const Vector3d& rate,
   return out;
 }
 
+double factor_at(const base::SignalLaw& law, const Sight& sight) {
+  return std::max(0.0, law.value(sight.t, sight.signals));
+}
+
 }  // namespace
 
 Bushing::Bushing(const Coefficients& coefficients, const Matrix3d& R_FM_placed,
@@ -72,8 +77,13 @@ Bushing::Stand Bushing::look(const MarkerMotion& first, const MarkerMotion& seco
           R_FW * (second.w - first.w)};
 }
 
-Action Bushing::evaluate(double /*t*/, const MarkerMotion& first,
-                         const MarkerMotion& second) const {
+Action Bushing::evaluate(double t, const MarkerMotion& first, const MarkerMotion& second) const {
+  return respond({t, first, second});
+}
+
+Action Bushing::respond(const Sight& sight) const {
+  const MarkerMotion& first = sight.first;
+  const MarkerMotion& second = sight.second;
   const auto [r, r_dot, theta, w] = look(first, second);
   const Vector3d arm = second.p - first.p;
   require_measurable(theta, resists_turns_);
@@ -84,6 +94,12 @@ Action Bushing::evaluate(double /*t*/, const MarkerMotion& first,
   const double linear = 0.5 * (r.dot(elastic_force) + theta.dot(elastic_moment));
   const double in_curves = add_curves(k_.forces, r, r_dot, elastic_force, viscous_force) +
                            add_curves(k_.torques, theta, w, elastic_moment, viscous_torque);
+  const double stiffness = factor_at(k_.stiffness_factor, sight);
+  const double damping = factor_at(k_.damping_factor, sight);
+  elastic_force *= stiffness;
+  elastic_moment *= stiffness;
+  viscous_force *= damping;
+  viscous_torque *= damping;
   const Vector3d elastic_torque =
       spatial::left_jacobian(theta).transpose().partialPivLu().solve(elastic_moment);
 
@@ -92,16 +108,25 @@ Action Bushing::evaluate(double /*t*/, const MarkerMotion& first,
   const Vector3d torque = -(first.R * (elastic_torque + viscous_torque));
   action.on_second = {torque, force};
   action.on_first = {-torque - arm.cross(force), -force};
-  action.stored_energy = linear + in_curves;
+  action.stored_energy = stiffness * (linear + in_curves);
   action.dissipation = r_dot.dot(viscous_force) + w.dot(viscous_torque);
   action.active_power = -action.dissipation;
   return action;
 }
 
-void Bushing::append_soft_rows(const MarkerMotion& first, const MarkerMotion& second,
-                               std::vector<SoftRow>& rows) const {
-  const Vector3d arm = second.p - first.p;
-  const Stand stand = look(first, second);
+void Bushing::append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const {
+  const MarkerMotion& first = sight.first;
+  const Vector3d arm = sight.second.p - first.p;
+  const Stand stand = look(first, sight.second);
+  const double stiffness = factor_at(k_.stiffness_factor, sight);
+  const double damping = factor_at(k_.damping_factor, sight);
+  const auto push = [&](SoftRow& row, const std::optional<base::Characteristic>& curve, double x,
+                        double rate) {
+    add_slopes(curve, x, rate, row);
+    row.stiffness *= stiffness;
+    row.damping *= damping;
+    rows.push_back(row);
+  };
   for (int i = 0; i < 3; ++i) {
     const Vector3d e = first.R.col(i);
     SoftRow row;
@@ -110,8 +135,7 @@ void Bushing::append_soft_rows(const MarkerMotion& first, const MarkerMotion& se
     row.J.segment<3>(9) = e.transpose();
     row.stiffness = k_.stiffness[i];
     row.damping = k_.damping[i];
-    add_slopes(k_.forces[static_cast<std::size_t>(i)], stand.r[i], stand.r_dot[i], row);
-    rows.push_back(row);
+    push(row, k_.forces[static_cast<std::size_t>(i)], stand.r[i], stand.r_dot[i]);
   }
   for (int i = 0; i < 3; ++i) {
     const Vector3d e = first.R.col(i);
@@ -120,8 +144,7 @@ void Bushing::append_soft_rows(const MarkerMotion& first, const MarkerMotion& se
     row.J.segment<3>(6) = e.transpose();
     row.stiffness = k_.rotational_stiffness[i];
     row.damping = k_.rotational_damping[i];
-    add_slopes(k_.torques[static_cast<std::size_t>(i)], stand.theta[i], stand.w[i], row);
-    rows.push_back(row);
+    push(row, k_.torques[static_cast<std::size_t>(i)], stand.theta[i], stand.w[i]);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "buckens/base/characteristic.h"
+#include "buckens/base/signal_law.h"
 #include "buckens/loads/force_element.h"
 
 namespace buckens::loads {
@@ -29,6 +30,8 @@ class Bushing final : public ForceElement {
     Eigen::Vector3d rotational_damping = Eigen::Vector3d::Zero();    ///< [N m s/rad]
     /// By displacement and rate along each axis [N], by angle and rate about it [N m].
     std::array<std::optional<base::Characteristic>, 3> forces{}, torques{};
+    /// Multiply what it stores and what it loses; below zero they count as zero.
+    base::SignalLaw stiffness_factor = 1.0, damping_factor = 1.0;
   };
 
   /// @param R_FM_placed orientation of the second marker in the first as placed
@@ -37,11 +40,19 @@ class Bushing final : public ForceElement {
           const Eigen::Vector3d& r_F_placed);
 
   /// @throws NumericalError beyond 3 rad against stiffness
+  Action respond(const Sight& sight) const override;
+  /// The same. @pre !uses_signals()
   Action evaluate(double t, const spatial::MarkerMotion& first,
                   const spatial::MarkerMotion& second) const override;
   int num_soft_rows() const override { return 6; }
-  void append_soft_rows(const spatial::MarkerMotion& first, const spatial::MarkerMotion& second,
-                        std::vector<SoftRow>& rows) const override;
+  void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const override;
+  bool uses_signals() const override {
+    return k_.stiffness_factor.uses_signals() || k_.damping_factor.uses_signals();
+  }
+  bool has_driven_energy() const override { return !k_.stiffness_factor.is_constant(); }
+  bool is_constant() const override {
+    return k_.stiffness_factor.is_constant() && k_.damping_factor.is_constant();
+  }
 
  private:
   /// Displacement, rotation and their rates in axes of the first marker.

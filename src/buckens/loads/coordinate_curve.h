@@ -16,8 +16,10 @@ namespace buckens::loads {
 class CoordinateCurve final : public ForceElement {
  public:
   /// @param free value of the coordinate without force [m] or [rad]
-  CoordinateCurve(double stiffness, double damping, double free, base::Characteristic curve)
-      : stiffness_(stiffness), damping_(damping), free_(free), curve_(std::move(curve)) {}
+  CoordinateCurve(base::SignalLaw stiffness, base::SignalLaw damping, base::SignalLaw free,
+                  base::Characteristic curve)
+      : laws_(std::move(stiffness), std::move(damping), std::move(free)),
+        curve_(std::move(curve)) {}
 
   /// Nothing: the law needs its coordinate, see respond().
   Action evaluate(double t, const spatial::MarkerMotion& first,
@@ -25,9 +27,12 @@ class CoordinateCurve final : public ForceElement {
   Action respond(const Sight& sight) const override;
   int num_soft_rows() const override { return 1; }
   void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const override;
+  bool uses_signals() const override { return laws_.uses_signals(); }
+  bool has_driven_energy() const override { return laws_.drives_energy(); }
+  bool is_constant() const override { return laws_.is_constant(); }
 
  private:
-  double stiffness_, damping_, free_;
+  SpringLaws laws_;
   base::Characteristic curve_;
 };
 

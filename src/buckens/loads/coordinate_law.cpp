@@ -120,10 +120,11 @@ void CoordinateLaw::find_states(const Sight& sight, double* states) const {
 }
 
 ProjectedForce CoordinateSpring::force(const Sight& sight) const {
+  const SpringNumbers now = laws_.at(sight.t, sight.signals);
   ProjectedForce out;
-  out.strain = sight.coordinate.value - free_;
-  out.stiffness = stiffness_;
-  out.damping = damping_;
+  out.strain = sight.coordinate.value - now.free;
+  out.stiffness = now.stiffness;
+  out.damping = now.damping;
   return out;
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
 
 #include "buckens/loads/force_element.h"
+#include "buckens/loads/spring_laws.h"
 
 namespace buckens::loads {
 
@@ -66,12 +68,16 @@ class CoordinateLaw : public ForceElement {
 class CoordinateSpring final : public CoordinateLaw {
  public:
   /// @param free force-free value of the coordinate [m] or [rad]
-  CoordinateSpring(double stiffness, double damping, double free)
-      : stiffness_(stiffness), damping_(damping), free_(free) {}
+  CoordinateSpring(base::SignalLaw stiffness, base::SignalLaw damping, base::SignalLaw free)
+      : laws_(std::move(stiffness), std::move(damping), std::move(free)) {}
+
+  bool uses_signals() const override { return laws_.uses_signals(); }
+  bool has_driven_energy() const override { return laws_.drives_energy(); }
+  bool is_constant() const override { return laws_.is_constant(); }
 
  private:
   ProjectedForce force(const Sight& sight) const override;
-  double stiffness_, damping_, free_;
+  SpringLaws laws_;
 };
 
 /// Elastic stops of a joint coordinate: a spring and damper beyond an end, which never pulls. The

@@ -13,7 +13,12 @@ bool any(const MotorData& data, Property&& property) {
   for (const auto* law : {&data.force, &data.position, &data.speed}) {
     if (*law && property(**law)) return true;
   }
-  return false;
+  return property(data.stiffness) || property(data.damping) || property(data.limit) ||
+         property(data.power);
+}
+
+double from_zero(const base::SignalLaw& law, const Sight& sight) {
+  return std::max(0.0, law.value(sight.t, sight.signals));
 }
 
 }  // namespace
@@ -35,16 +40,17 @@ ProjectedForce CoordinateMotor::force(const Sight& sight) const {
   if (!data_.speed && data_.position) aimed = data_.position->rate(sight.t);
   ProjectedForce out;
   out.is_source = true;
-  out.stiffness = data_.stiffness;
-  if (data_.stiffness > 0.0) out.strain = sight.coordinate.value - value(data_.position);
-  out.damping = data_.damping;
-  out.drive = data_.damping * aimed + value(data_.force);
-  out.highest = data_.limit;
-  out.lowest = -data_.limit;
-  if (rate == 0.0 || data_.power == HUGE_VAL) return out;
+  out.stiffness = from_zero(data_.stiffness, sight);
+  if (out.stiffness > 0.0) out.strain = sight.coordinate.value - value(data_.position);
+  out.damping = from_zero(data_.damping, sight);
+  out.drive = out.damping * aimed + value(data_.force);
+  out.highest = from_zero(data_.limit, sight);
+  out.lowest = -out.highest;
+  const double power = from_zero(data_.power, sight);
+  if (rate == 0.0 || power == HUGE_VAL) return out;
   // Only while it drives: towards the motion.
-  const double most = data_.power / std::abs(rate);
-  if (most >= data_.limit) return out;
+  const double most = power / std::abs(rate);
+  if (most >= out.highest) return out;
   (rate > 0.0 ? out.highest : out.lowest) = std::copysign(most, rate);
   const double trial = out.drive - out.stiffness * out.strain - out.damping * rate;
   if (trial * rate > 0.0) out.cut_damping = most / std::abs(rate);
@@ -95,7 +101,8 @@ RigidRow RateHold::row(const Sight& sight) const {
 
 bool CoordinateServo::uses_signals() const {
   return (data_.position && data_.position->uses_signals()) ||
-         (data_.speed && data_.speed->uses_signals());
+         (data_.speed && data_.speed->uses_signals()) || data_.limit.uses_signals() ||
+         data_.power.uses_signals();
 }
 
 double CoordinateServo::law_rate(const Sight& sight) const {
@@ -117,8 +124,10 @@ double CoordinateServo::aimed_acceleration(const Sight& sight) const {
 
 double CoordinateServo::most(const Sight& sight, double force) const {
   const double rate = sight.coordinate.rate;
-  if (force * rate <= 0.0 || data_.power == HUGE_VAL) return data_.limit;
-  return std::min(data_.limit, data_.power / std::abs(rate));
+  const double limit = from_zero(data_.limit, sight);
+  const double power = from_zero(data_.power, sight);
+  if (force * rate <= 0.0 || power == HUGE_VAL) return limit;
+  return std::min(limit, power / std::abs(rate));
 }
 
 }  // namespace buckens::loads

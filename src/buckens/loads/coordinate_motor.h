@@ -15,10 +15,11 @@ struct MotorData {
   std::optional<base::SignalLaw> force;     ///< [N m] or [N]
   std::optional<base::SignalLaw> position;  ///< [rad] or [m]
   std::optional<base::SignalLaw> speed;     ///< [rad/s] or [m/s]; none: rate of the position
-  double stiffness = 0;                     ///< [N m/rad] or [N/m]
-  double damping = 0;                       ///< [N m s/rad] or [N s/m]
-  double limit = HUGE_VAL;                  ///< [N m] or [N]
-  double power = HUGE_VAL;                  ///< [W], while it drives
+  // Below zero, these count as zero.
+  base::SignalLaw stiffness;         ///< [N m/rad] or [N/m]
+  base::SignalLaw damping;           ///< [N m s/rad] or [N s/m]
+  base::SignalLaw limit = HUGE_VAL;  ///< [N m] or [N]
+  base::SignalLaw power = HUGE_VAL;  ///< [W], while it drives
 };
 
 /// Motor on a joint coordinate ξ: a bounded row that stalls exactly at its limit,
@@ -79,8 +80,9 @@ struct ServoData {
   std::optional<base::SignalLaw> position;  ///< [rad] or [m]
   std::optional<base::SignalLaw> speed;  ///< [rad/s] or [m/s]; none: rate of the position, if known
   double return_time = 0;                ///< [s] > 0 with a position
-  double limit = HUGE_VAL;               ///< [N m] or [N]
-  double power = HUGE_VAL;               ///< [W], while it drives
+  // Below zero, these count as zero.
+  base::SignalLaw limit = HUGE_VAL;  ///< [N m] or [N]
+  base::SignalLaw power = HUGE_VAL;  ///< [W], while it drives
 };
 
 /// Motor that has its speed exactly, whatever force that takes, up to its limits:

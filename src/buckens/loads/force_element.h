@@ -138,6 +138,9 @@ class ForceElement {
 
   /// Whether it looks at Sight::signals.
   virtual bool uses_signals() const { return false; }
+  /// Whether its stored energy depends on time or signals: what it gains as these change, with the
+  /// motion as it is, comes from outside and is no part of Action::active_power.
+  virtual bool has_driven_energy() const { return false; }
 
   /// True for external loads: a static path multiplies them by its load factor.
   virtual bool is_applied() const { return false; }

@@ -18,9 +18,46 @@ inline Vector3d axis_in_world(const Eigen::Matrix3d& R, const Vector3d& v) {
 }
 }  // namespace
 
+bool FrictionLaws::uses_signals() const {
+  return static_coefficient.uses_signals() || dynamic_coefficient.uses_signals() ||
+         viscous.uses_signals() || preload.uses_signals();
+}
+
+bool FrictionLaws::is_constant() const {
+  return static_coefficient.is_constant() && dynamic_coefficient.is_constant() &&
+         viscous.is_constant() && preload.is_constant();
+}
+
+void FrictionLaws::set(const Sight& sight, FrictionData& data) const {
+  const auto now = [&](const base::SignalLaw& law) {
+    return std::max(0.0, law.value(sight.t, sight.signals));
+  };
+  data.static_coefficient = now(static_coefficient);
+  data.dynamic_coefficient = std::min(now(dynamic_coefficient), data.static_coefficient);
+  data.viscous = now(viscous);
+  data.preload = now(preload);
+}
+
+DrivenBound::DrivenBound(const FrictionData& data, const Vector3d& axis_F,
+                         std::optional<FrictionLaws> laws)
+    : data_(data), axis_F_(axis_F) {
+  if (laws && laws->is_constant()) {
+    laws->set({0.0, {}, {}}, data_);
+  } else {
+    laws_ = std::move(laws);
+  }
+}
+
+FrictionBound DrivenBound::at(const Sight& sight) const {
+  if (!laws_) return {data_, axis_F_};
+  FrictionData now = data_;
+  laws_->set(sight, now);
+  return {now, axis_F_};
+}
+
 void JointFriction::start_states(const Sight& sight, double* states) const {
   const double rate = sight.coordinate.rate;
-  const double slip = bound_.data().slip;
+  const double slip = bound_.at(sight).data().slip;
   if (std::abs(rate) * kAtOnce > slip) states[0] = std::copysign(slip, rate);
 }
 
@@ -66,12 +103,13 @@ double FrictionBound::coefficient(double rate) const {
 }
 
 ProjectedForce JointFriction::force(const Sight& sight) const {
-  const FrictionData& data = bound_.data();
-  const double load = bound_.load(sight);
+  const FrictionBound bound = bound_.at(sight);
+  const FrictionData& data = bound.data();
+  const double load = bound.load(sight);
   ProjectedForce out;
   out.is_yielding = true;
   out.strain = (sight.states != nullptr ? sight.states[0] : 0.0) + sight.coordinate.change;
-  out.highest = bound_.at(load, sight.coordinate.rate);
+  out.highest = bound.at(load, sight.coordinate.rate);
   out.lowest = -out.highest;
   out.stiffness = (data.static_coefficient * load + data.preload) / data.slip;
   // Critical for the moving inertia: sticking does not stop a vibration above its bound.
@@ -82,14 +120,15 @@ ProjectedForce JointFriction::force(const Sight& sight) const {
 
 void JointFriction::append_slopes(const Sight& sight, std::vector<spatial::Wrench>& out) const {
   const ProjectedForce law = force(sight);
+  const FrictionBound bound = bound_.at(sight);
   const double rate = sight.coordinate.rate;
-  double growth = limited_to(law, rate) * bound_.coefficient(rate);
+  double growth = limited_to(law, rate) * bound.coefficient(rate);
   if (growth == 0.0 && law.stiffness > 0.0) {
     // The spring grows with the bound, its damper with the root of it.
-    const double share = bound_.data().static_coefficient / bound_.data().slip / law.stiffness;
+    const double share = bound.data().static_coefficient / bound.data().slip / law.stiffness;
     growth = -share * (law.stiffness * law.strain + 0.5 * law.damping * rate);
   }
-  out.push_back(bound_.load_slope(sight, growth));
+  out.push_back(bound.load_slope(sight, growth));
 }
 
 namespace {
@@ -121,7 +160,8 @@ constexpr double kSurelySliding = 60.0;
 BristleFriction::Bend BristleFriction::bend(const Sight& sight) const {
   const double rate = sight.coordinate.rate;
   Bend out;
-  out.bound = bound_.at(bound_.load(sight), rate);
+  const FrictionBound most = bound_.at(sight);
+  out.bound = most.at(most.load(sight), rate);
   const double before = sight.states != nullptr ? sight.states[0] : 0.0;
   const double bound_before = sight.states != nullptr ? sight.states[1] : 0.0;
   // f_s over the step: the mean of both ends.
@@ -163,7 +203,8 @@ Action BristleFriction::respond(const Sight& sight) const {
   const double rate = sight.coordinate.rate;
   const double bent_rate = rate * now.slope;
   const double elastic = bristles_.stiffness * now.z;
-  const double force = -elastic - bristles_.damping * bent_rate - bound_.data().viscous * rate;
+  const double force =
+      -elastic - bristles_.damping * bent_rate - bound_.at(sight).data().viscous * rate;
   Action out = along_coordinate(sight.coordinate, force);
   out.stored_energy = 0.5 * elastic * now.z;
   out.active_power = force * rate + elastic * bent_rate;
@@ -177,7 +218,7 @@ void BristleFriction::append_tangent(const Sight& sight, std::vector<SoftRow>& r
   SoftRow row;
   row.J = sight.coordinate.J;
   row.stiffness = slope * bristles_.stiffness;
-  row.damping = slope * bristles_.damping + bound_.data().viscous;
+  row.damping = slope * bristles_.damping + bound_.at(sight).data().viscous;
   rows.push_back(row);
 }
 
@@ -185,7 +226,8 @@ void BristleFriction::append_slopes(const Sight& sight, std::vector<spatial::Wre
   const double slope = std::clamp(bend(sight).slope, 0.0, 1.0);
   // Bent fully, they carry the mean of f_s at both ends of the step.
   const double bent = std::copysign(0.5 * (1.0 - slope), sight.coordinate.rate);
-  out.push_back(bound_.load_slope(sight, -bent * bound_.coefficient(sight.coordinate.rate)));
+  const FrictionBound bound = bound_.at(sight);
+  out.push_back(bound.load_slope(sight, -bent * bound.coefficient(sight.coordinate.rate)));
 }
 
 void BristleFriction::find_states(const Sight& sight, double* states) const {
@@ -196,25 +238,26 @@ void BristleFriction::find_states(const Sight& sight, double* states) const {
 
 void RigidFriction::start_states(const Sight& sight, double* states) const {
   const double rate = sight.coordinate.rate;
-  states[0] = std::abs(rate) * kAtOnce <= bound_.data().slip ? 1 : rate > 0.0 ? 2 : 3;
+  states[0] = std::abs(rate) * kAtOnce <= bound_.at(sight).data().slip ? 1 : rate > 0.0 ? 2 : 3;
 }
 
 RigidRow RigidFriction::row(const Sight& sight) const {
   const double rate = sight.coordinate.rate;
-  const double load = bound_.load(sight);
+  const FrictionBound bound = bound_.at(sight);
+  const double load = bound.load(sight);
   RigidRow out;
   out.next = sight.stand;
   out.is_closed = sight.stand.regime <= 1;
   out.slip = rate;
   if (out.is_closed) {
-    const double most = bound_.at(load, 0.0);
+    const double most = bound.at(load, 0.0);
     if (std::abs(sight.stand.force) > most) {
       out.next = {sight.stand.force < 0.0 ? 2 : 3, std::copysign(most, sight.stand.force)};
     }
     return out;
   }
   const double direction = sight.stand.regime == 2 ? 1.0 : -1.0;
-  out.given = -direction * bound_.at(load, rate) - bound_.data().viscous * rate;
+  out.given = -direction * bound.at(load, rate) - bound.data().viscous * rate;
   if (direction * rate < 0.0) out.next = {1, out.given};
   return out;
 }
@@ -223,7 +266,8 @@ void RigidFriction::append_slopes(const Sight& sight, std::vector<spatial::Wrenc
   // A row that is closed has whatever force keeps it closed.
   const int regime = sight.stand.regime;
   const double direction = regime == 2 ? 1.0 : regime == 3 ? -1.0 : 0.0;
-  out.push_back(bound_.load_slope(sight, -direction * bound_.coefficient(sight.coordinate.rate)));
+  const FrictionBound bound = bound_.at(sight);
+  out.push_back(bound.load_slope(sight, -direction * bound.coefficient(sight.coordinate.rate)));
 }
 
 }  // namespace buckens::loads

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <utility>
+
+#include "buckens/base/signal_law.h"
 #include "buckens/loads/coordinate_law.h"
 #include "buckens/loads/reaction_follower.h"
 #include "buckens/loads/rigid_law.h"
@@ -48,6 +52,36 @@ class FrictionBound {
   Eigen::Vector3d axis_F_;
 };
 
+/// The parameters of dry friction that may follow time and signals. Below zero they count as zero,
+/// and sliding never resists more than sticking.
+struct FrictionLaws {
+  base::SignalLaw static_coefficient, dynamic_coefficient;
+  base::SignalLaw viscous;  ///< [N s/m] or [N m s/rad]
+  base::SignalLaw preload;  ///< [N] or [N m]
+
+  bool uses_signals() const;
+  bool is_constant() const;
+  /// Writes what they are at this instant.
+  void set(const Sight& sight, FrictionData& data) const;
+};
+
+/// The bound of a law of friction, with the parameters of the instant.
+class DrivenBound {
+ public:
+  /// @param laws take the place of the numbers in `data`; none: these are constant
+  DrivenBound(const FrictionData& data, const Eigen::Vector3d& axis_F,
+              std::optional<FrictionLaws> laws);
+
+  FrictionBound at(const Sight& sight) const;
+  bool uses_signals() const { return laws_ && laws_->uses_signals(); }
+  bool is_constant() const { return !laws_; }
+
+ private:
+  FrictionData data_;
+  Eigen::Vector3d axis_F_;
+  std::optional<FrictionLaws> laws_;
+};
+
 /// Dry friction on a joint coordinate by elastic stick with return mapping.
 ///
 /// Within the bound b = μ N + b₀ the joint sticks by a spring that breaks away at the given slip;
@@ -56,21 +90,28 @@ class FrictionBound {
 class JointFriction final : public CoordinateLaw, public ReactionFollower {
  public:
   /// @param axis_F unit vector of the joint in the first marker
-  JointFriction(const FrictionData& data, const Eigen::Vector3d& axis_F) : bound_(data, axis_F) {}
+  JointFriction(const FrictionData& data, const Eigen::Vector3d& axis_F,
+                std::optional<FrictionLaws> laws = std::nullopt)
+      : bound_(data, axis_F, std::move(laws)) {}
+
+  bool uses_signals() const override { return bound_.uses_signals(); }
+  bool is_constant() const override { return bound_.is_constant(); }
 
   /// A joint that covers its slip within a millisecond slides from the start.
   void start_states(const Sight& sight, double* states) const override;
 
   void append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const override;
-  double most_at_rest(const Sight& sight) const override { return bound_.most_at_rest(sight); }
+  double most_at_rest(const Sight& sight) const override {
+    return bound_.at(sight).most_at_rest(sight);
+  }
 
-  double load(const Sight& sight) const { return bound_.load(sight); }
+  double load(const Sight& sight) const { return bound_.at(sight).load(sight); }
 
  private:
   ProjectedForce force(const Sight& sight) const override;
   bool is_yielding() const override { return true; }
 
-  FrictionBound bound_;
+  DrivenBound bound_;
 };
 
 /// Parameters of LuGre's bristles.
@@ -92,8 +133,11 @@ class BristleFriction final : public ForceElement, public ReactionFollower {
  public:
   /// @param axis_F unit vector of the joint in the first marker
   BristleFriction(const FrictionData& data, const BristleData& bristles,
-                  const Eigen::Vector3d& axis_F)
-      : bound_(data, axis_F), bristles_(bristles) {}
+                  const Eigen::Vector3d& axis_F, std::optional<FrictionLaws> laws = std::nullopt)
+      : bound_(data, axis_F, std::move(laws)), bristles_(bristles) {}
+
+  bool uses_signals() const override { return bound_.uses_signals(); }
+  bool is_constant() const override { return bound_.is_constant(); }
 
   /// Zero: the law needs its coordinate, see respond().
   Action evaluate(double t, const spatial::MarkerMotion& first,
@@ -102,7 +146,9 @@ class BristleFriction final : public ForceElement, public ReactionFollower {
   int num_soft_rows() const override { return 1; }
   void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const override;
   void append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const override;
-  double most_at_rest(const Sight& sight) const override { return bound_.most_at_rest(sight); }
+  double most_at_rest(const Sight& sight) const override {
+    return bound_.at(sight).most_at_rest(sight);
+  }
   int num_states() const override { return 2; }
   void find_states(const Sight& sight, double* states) const override;
 
@@ -114,7 +160,7 @@ class BristleFriction final : public ForceElement, public ReactionFollower {
   };
   Bend bend(const Sight& sight) const;
 
-  FrictionBound bound_;
+  DrivenBound bound_;
   BristleData bristles_;
 };
 
@@ -123,17 +169,24 @@ class BristleFriction final : public ForceElement, public ReactionFollower {
 class RigidFriction final : public RigidLaw, public ReactionFollower {
  public:
   /// @param axis_F unit vector of the joint in the first marker
-  RigidFriction(const FrictionData& data, const Eigen::Vector3d& axis_F) : bound_(data, axis_F) {}
+  RigidFriction(const FrictionData& data, const Eigen::Vector3d& axis_F,
+                std::optional<FrictionLaws> laws = std::nullopt)
+      : bound_(data, axis_F, std::move(laws)) {}
+
+  bool uses_signals() const override { return bound_.uses_signals(); }
+  bool is_constant() const override { return bound_.is_constant(); }
 
   /// Sticks at rest, slides where it moves.
   void start_states(const Sight& sight, double* states) const override;
   void append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const override;
-  double most_at_rest(const Sight& sight) const override { return bound_.most_at_rest(sight); }
+  double most_at_rest(const Sight& sight) const override {
+    return bound_.at(sight).most_at_rest(sight);
+  }
 
  private:
   RigidRow row(const Sight& sight) const override;
 
-  FrictionBound bound_;
+  DrivenBound bound_;
 };
 
 }  // namespace buckens::loads

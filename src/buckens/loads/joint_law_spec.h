@@ -8,6 +8,7 @@
 #include "buckens/base/characteristic.h"
 #include "buckens/base/coordinate_choice.h"
 #include "buckens/base/field.h"
+#include "buckens/base/signal_law.h"
 
 namespace buckens::loads {
 
@@ -44,25 +45,26 @@ struct HingeSpringSpec : JointLaw {
   static constexpr const char* kDoc =
       "linear torsional spring and damper on the angle of a joint, over any number of turns";
   static constexpr bool kTurns = true;
-  double stiffness = 0;                                ///< [N m/rad]
-  double damping = 0;                                  ///< [N m s/rad]
-  double angle = 0;                                    ///< torque-free [rad]
+  base::SignalLaw stiffness;                           ///< [N m/rad]
+  base::SignalLaw damping;                             ///< [N m s/rad]
+  base::SignalLaw angle;                               ///< torque-free [rad]
   std::optional<base::Characteristic> characteristic;  ///< [N m] by angle and rate
 
   template <class Visitor>
   void fields(Visitor& visit) {
     joint_fields(visit, kTurns);
-    visit(base::field("stiffness", stiffness, "spring rate")
+    visit(base::field("stiffness", stiffness, "spring rate, by time and signals")
               .in(base::kRotationalStiffness)
               .non_negative()
               .like("20 N m/rad"));
-    visit(base::field("damping", damping, "damper rate")
+    visit(base::field("damping", damping, "damper rate, by time and signals")
               .in(base::kRotationalDamping)
               .non_negative()
               .like("0.1 N m s/rad"));
-    visit(base::field("angle", angle, "angle at which the spring is torque-free")
-              .in(base::kAngle)
-              .like("10 deg"));
+    visit(
+        base::field("angle", angle, "angle at which the spring is torque-free, by time and signals")
+            .in(base::kAngle)
+            .like("10 deg"));
     visit(base::field("characteristic", characteristic,
                       "torque against the turn as a formula in `angle` (from that free of torque) "
                       "and `rate`, or a table of the angle in rad; added to spring and damper")
@@ -76,26 +78,26 @@ struct SlideSpringSpec : JointLaw {
   static constexpr const char* kKey = "slide-spring";
   static constexpr const char* kDoc = "linear spring and damper on the displacement of a joint";
   static constexpr bool kTurns = false;
-  double stiffness = 0;                                ///< [N/m]
-  double damping = 0;                                  ///< [N s/m]
-  double displacement = 0;                             ///< force-free [m]
+  base::SignalLaw stiffness;                           ///< [N/m]
+  base::SignalLaw damping;                             ///< [N s/m]
+  base::SignalLaw displacement;                        ///< force-free [m]
   std::optional<base::Characteristic> characteristic;  ///< [N] by displacement and rate
 
   template <class Visitor>
   void fields(Visitor& visit) {
     joint_fields(visit, kTurns);
-    visit(base::field("stiffness", stiffness, "spring rate")
+    visit(base::field("stiffness", stiffness, "spring rate, by time and signals")
               .in(base::kStiffness)
               .non_negative()
               .like("2 kN/m"));
-    visit(base::field("damping", damping, "damper rate")
+    visit(base::field("damping", damping, "damper rate, by time and signals")
               .in(base::kDamping)
               .non_negative()
               .like("5 N s/m"));
-    visit(
-        base::field("displacement", displacement, "displacement at which the spring is force-free")
-            .in(base::kLength)
-            .like("10 mm"));
+    visit(base::field("displacement", displacement,
+                      "displacement at which the spring is force-free, by time and signals")
+              .in(base::kLength)
+              .like("10 mm"));
     visit(base::field("characteristic", characteristic,
                       "force against the slide as a formula in `displacement` (from that free of "
                       "force) and `rate`, or a table of the displacement in m; added to spring and "
@@ -182,12 +184,12 @@ constexpr std::array<const char*, 3> choice_names(FrictionStick) {
 
 /// Dry friction, from the joint's own reaction.
 struct JointFrictionBase : JointLaw {
-  double coefficient = 0;          ///< of sticking, μ_s
-  std::optional<double> dynamic;   ///< of sliding, μ_d; default: the same
-  std::optional<double> stribeck;  ///< [rad/s] or [m/s]
-  double viscous = 0;              ///< [N m s/rad] or [N s/m]
-  double preload = 0;              ///< [N m] or [N]
-  std::optional<double> slip;      ///< [rad] or [m]
+  base::SignalLaw coefficient;             ///< of sticking, μ_s
+  std::optional<base::SignalLaw> dynamic;  ///< of sliding, μ_d; default: the same
+  std::optional<double> stribeck;          ///< [rad/s] or [m/s]
+  base::SignalLaw viscous;                 ///< [N m s/rad] or [N s/m]
+  base::SignalLaw preload;                 ///< [N m] or [N]
+  std::optional<double> slip;              ///< [rad] or [m]
   FrictionStick stick = FrictionStick::elastic;
   std::optional<double> bristle_stiffness;  ///< σ₀ [N m/rad] or [N/m]
   std::optional<double> bristle_damping;    ///< σ₁ [N m s/rad] or [N s/m]
@@ -196,10 +198,12 @@ struct JointFrictionBase : JointLaw {
 
   template <class Visitor>
   void law_fields(Visitor& visit, bool turns) {
-    visit(base::field("static", coefficient, "coefficient of friction while it sticks")
+    visit(base::field("static", coefficient,
+                      "coefficient of friction while it sticks, by time and signals")
               .non_negative()
               .like("0.15"));
-    visit(base::field("dynamic", dynamic, "coefficient of friction while it slides")
+    visit(base::field("dynamic", dynamic,
+                      "coefficient of friction while it slides, by time and signals")
               .non_negative()
               .like("0.1")
               .otherwise("the same as `static`"));
@@ -210,11 +214,13 @@ struct JointFrictionBase : JointLaw {
               .positive()
               .like(turns ? "0.1 rad/s" : "10 mm/s")
               .otherwise("none"));
-    visit(base::field("viscous", viscous, "damper rate in addition to dry friction")
+    visit(base::field("viscous", viscous,
+                      "damper rate in addition to dry friction, by time and signals")
               .in(turns ? base::kRotationalDamping : base::kDamping)
               .non_negative()
               .like(turns ? "0.01 N m s/rad" : "1 N s/m"));
-    visit(base::field("preload", preload, "resistance without any reaction, as of seals")
+    visit(base::field("preload", preload,
+                      "resistance without any reaction, as of seals; by time and signals")
               .in(turns ? base::kTorque : base::kForce)
               .non_negative()
               .like(turns ? "0.2 N m" : "5 N"));

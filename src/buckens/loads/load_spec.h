@@ -11,6 +11,7 @@
 #include "buckens/base/characteristic.h"
 #include "buckens/base/field.h"
 #include "buckens/base/marker_ref.h"
+#include "buckens/base/signal_law.h"
 #include "buckens/base/time_law.h"
 #include "buckens/loads/belt_spec.h"
 #include "buckens/loads/cable_spec.h"
@@ -65,30 +66,31 @@ struct SpringDamperSpec {
   static constexpr const char* kKey = "spring-damper";
   static constexpr const char* kDoc = "spring and damper along the line between two markers";
   std::array<base::MarkerRef, 2> between;
-  double stiffness = 0;                ///< k [N/m]
-  double damping = 0;                  ///< c [N s/m]
-  std::optional<double> length;        ///< l0 [m]; default: the distance as placed
-  std::optional<base::TimeLaw> force;  ///< f [N], positive pulls the markers together
+  base::SignalLaw stiffness;              ///< k [N/m]
+  base::SignalLaw damping;                ///< c [N s/m]
+  std::optional<base::SignalLaw> length;  ///< l0 [m]; default: the distance as placed
+  std::optional<base::SignalLaw> force;   ///< f [N], positive pulls the markers together
   std::optional<base::Characteristic> characteristic;  ///< [N] by elongation and its rate
 
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("between", between, "the two markers").required().like("[ground, rod/end]"));
-    visit(base::field("stiffness", stiffness, "spring rate")
+    visit(base::field("stiffness", stiffness, "spring rate, by time and signals")
               .in(base::kStiffness)
               .non_negative()
               .like("2 kN/m"));
-    visit(base::field("damping", damping, "damper rate")
+    visit(base::field("damping", damping, "damper rate, by time and signals")
               .in(base::kDamping)
               .non_negative()
               .like("5 N s/m"));
-    visit(base::field("length", length, "length at which the spring is force-free")
+    visit(base::field("length", length,
+                      "length at which the spring is force-free, by time and signals")
               .in(base::kLength)
               .non_negative()
               .like("120 mm")
               .otherwise("the distance as placed"));
     visit(base::field("force", force,
-                      "additional tension as a law of time; positive pulls the markers "
+                      "additional tension, by time and signals; positive pulls the markers "
                       "together")
               .in(base::kForce)
               .like("\"10*sin(20*t) N\"")
@@ -108,9 +110,9 @@ struct TorsionalSpringSpec {
       "torsional spring and damper about an axis, for angles up to 3 rad either way";
   std::array<base::MarkerRef, 2> between;
   std::optional<Eigen::Vector3d> axis;  ///< in the first marker; default for planar: the normal
-  double stiffness = 0;                 ///< [N m/rad]
-  double damping = 0;                   ///< [N m s/rad]
-  double angle = 0;                     ///< free angle, from the position as placed [rad]
+  base::SignalLaw stiffness;            ///< [N m/rad]
+  base::SignalLaw damping;              ///< [N m s/rad]
+  base::SignalLaw angle;                ///< free angle, from the position as placed [rad]
   std::optional<base::Characteristic> characteristic;  ///< [N m] by angle and rate
 
   template <class Visitor>
@@ -119,17 +121,18 @@ struct TorsionalSpringSpec {
     visit(base::field("axis", axis, "axis in the first marker's axes")
               .like("[0, 0, 1]")
               .otherwise("planar models: the normal of the plane"));
-    visit(base::field("stiffness", stiffness, "spring rate")
+    visit(base::field("stiffness", stiffness, "spring rate, by time and signals")
               .in(base::kRotationalStiffness)
               .non_negative()
               .like("20 N m/rad"));
-    visit(base::field("damping", damping, "damper rate")
+    visit(base::field("damping", damping, "damper rate, by time and signals")
               .in(base::kRotationalDamping)
               .non_negative()
               .like("0.1 N m s/rad"));
     visit(base::field(
               "angle", angle,
-              "angle at which the spring is torque-free, measured from the position as placed")
+              "angle at which the spring is torque-free, measured from the position as placed; by "
+              "time and signals")
               .in(base::kAngle)
               .like("10 deg"));
     visit(base::field("characteristic", characteristic,

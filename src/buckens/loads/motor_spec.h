@@ -15,14 +15,16 @@ struct MotorSpec : JointLaw {
   std::optional<base::SignalLaw> force;     ///< [N m] or [N]
   std::optional<base::SignalLaw> position;  ///< aimed at [rad] or [m]
   std::optional<base::SignalLaw> speed;     ///< aimed at [rad/s] or [m/s]
-  double stiffness = 0;                     ///< [N m/rad] or [N/m]
-  double damping = 0;                       ///< [N m s/rad] or [N s/m]
-  std::optional<double> limit;              ///< [N m] or [N]
-  std::optional<double> power;              ///< [W]
+  base::SignalLaw stiffness;                ///< [N m/rad] or [N/m]
+  base::SignalLaw damping;                  ///< [N m s/rad] or [N s/m]
+  std::optional<base::SignalLaw> limit;     ///< [N m] or [N]
+  std::optional<base::SignalLaw> power;     ///< [W]
   std::optional<double> return_time;        ///< of an exact one with a position [s]
 
   /// Without gains it has its speed, or its position, exactly.
-  bool is_exact() const { return (speed || return_time) && stiffness == 0.0 && damping == 0.0; }
+  bool is_exact() const {
+    return (speed || return_time) && stiffness.is_number(0.0) && damping.is_number(0.0);
+  }
 
   template <class Visitor>
   void motor_fields(Visitor& visit, bool turns) {
@@ -50,21 +52,23 @@ struct MotorSpec : JointLaw {
             .like(turns ? "1500 rpm" : "0.2 m/s")
             .otherwise(turns ? "the rate of a law of time for `angle`, else 0"
                              : "the rate of a law of time for `displacement`, else 0"));
-    visit(base::field("stiffness", stiffness, "gain on the error of the position")
+    visit(base::field("stiffness", stiffness,
+                      "gain on the error of the position, by time and signals")
               .in(turns ? base::kRotationalStiffness : base::kStiffness)
               .non_negative()
               .like(turns ? "200 N m/rad" : "5 kN/m"));
-    visit(base::field("damping", damping, "gain on the error of the speed")
+    visit(base::field("damping", damping, "gain on the error of the speed, by time and signals")
               .in(turns ? base::kRotationalDamping : base::kDamping)
               .non_negative()
               .like(turns ? "5 N m s/rad" : "80 N s/m"));
     visit(base::field(turns ? "torque-limit" : "force-limit", limit,
-                      "largest magnitude, either way; the motor stalls there")
+                      "largest magnitude, either way; the motor stalls there; by time and signals")
               .in(turns ? base::kTorque : base::kForce)
               .positive()
               .like(turns ? "12 N m" : "400 N")
               .otherwise("none"));
-    visit(base::field("power-limit", power, "largest power delivered; braking has no such limit")
+    visit(base::field("power-limit", power,
+                      "largest power delivered, by time and signals; braking has no such limit")
               .in(base::kPower)
               .positive()
               .like("250 W")

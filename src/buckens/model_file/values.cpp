@@ -275,15 +275,28 @@ base::TimeLaw read_time_law(const ReadPlace& place, const FieldNote& note,
 base::SignalLaw read_signal_law(const ReadPlace& place, const FieldNote& note,
                                 const ReadContext& context) {
   base::SignalLaw out;
-  if (place.node.is_scalar() && !plain_quantity(place, note)) {
-    const std::string formula = base::split_quantity(place.node.text).formula;
+  const bool is_text = place.node.is_scalar();
+  const base::QuantityText written =
+      is_text ? base::split_quantity(place.node.text) : base::QuantityText{};
+  const std::string& text = written.formula;
+  if (note.any_dimension && !written.unit.empty()) {
+    if (const auto unit = base::parse_unit(written.unit)) out.unit = unit->dimension;
+  }
+  if (is_text && !plain_quantity(place, note)) {
     for (std::size_t k = 0; k < context.signals.size(); ++k) {
-      if (!has_word(formula, context.signals[k])) continue;
+      if (!has_word(text, context.signals[k])) continue;
       out.names.push_back(context.signals[k]);
       out.places.push_back(static_cast<int>(k));
     }
   }
-  if (out.names.empty()) return read_time_law(place, note, context);
+  if (out.names.empty()) {
+    out.law = read_time_law(place, note, context);
+    if (!is_text) return out;
+    // A formula of parameters alone is a number.
+    if (!has_word(text, "t")) out.law = base::TimeLaw::constant(out.law.value(0.0));
+    if (out.law.is_constant()) check_range(place, note, out.law.value(0.0));
+    return out;
+  }
   if (out.names.size() > base::SignalLaw::kMostSignals) {
     fail(place,
          fmt::format("the formula names {} signals, {} at most are possible; make signals of "

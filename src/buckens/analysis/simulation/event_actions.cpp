@@ -54,8 +54,8 @@ EventActions::Effect EventActions::apply(const model::EventSpec& event,
                                          model::State& state) const {
   const model::Model& model = built_.model;
   Effect out;
-  set_signals(event, state);
   const double stored = dynamics::energy(model, state).springs;
+  set_signals(event, state);
   switch_loads(event.switch_on, true, state);
   switch_loads(event.switch_off, false, state);
   out.gained = dynamics::energy(model, state).springs - stored;

@@ -25,8 +25,8 @@ class EventActions {
 
   /// What it has done to the energy.
   struct Effect {
-    /// By springs that were switched on, less those switched off, and by joints that were closed
-    /// the last bit [J].
+    /// By springs that were switched on or changed, less those switched off, and by joints that
+    /// were closed the last bit [J].
     double gained = 0;
     double lost = 0;  ///< when moving joints were locked [J]
   };

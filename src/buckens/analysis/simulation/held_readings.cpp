@@ -34,9 +34,9 @@ void HeldReadings::start(results::Recorder& recorder, const results::WorkBalance
                           state.memory, changes_);
 }
 
-void HeldReadings::follow(results::Recorder& recorder, const results::WorkBalance& work,
+bool HeldReadings::follow(results::Recorder& recorder, const results::WorkBalance& work,
                           const model::State& before, model::State& state) {
-  if (readings_.empty()) return;
+  if (readings_.empty()) return false;
   // λ of a step may refer to an instant within it; sensors have it at its end.
   linalg::Vector at_end = results::multipliers_at(before, state, state.t);
   std::swap(state.lambda, at_end);
@@ -45,6 +45,7 @@ void HeldReadings::follow(results::Recorder& recorder, const results::WorkBalanc
   dynamics::change_states(built_.model, dynamics::motions_of(built_.model, state),
                           dynamics::circumstances_of(state), changes_, state.memory,
                           dynamics::Samples::are_due);
+  return true;
 }
 
 }  // namespace buckens::analysis

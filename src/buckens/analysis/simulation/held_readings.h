@@ -19,7 +19,8 @@ class HeldReadings {
   void start(results::Recorder& recorder, const results::WorkBalance& work, model::State& state);
   /// Reads at the end of a step, then takes the samples of that instant.
   /// @param before the state at the start of the step
-  void follow(results::Recorder& recorder, const results::WorkBalance& work,
+  /// @return whether there is anything to read
+  bool follow(results::Recorder& recorder, const results::WorkBalance& work,
               const model::State& before, model::State& state);
 
  private:

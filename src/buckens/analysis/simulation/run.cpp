@@ -126,6 +126,7 @@ void SimulationRun::set_up() {
   work_.emplace(built_.model, prepared_->state, march_->stepper().scheme().weight == 1.0);
   readings_.emplace(built_, *observer_);
   readings_->start(*observer_, work_->work(), prepared_->state);
+  work_->take_jump(prepared_->state);
   drives_.emplace(built_.description);
   shafts_.emplace(built_.model);
   events_.emplace(built_);
@@ -233,9 +234,13 @@ void SimulationRun::step() {
   if (report.impacts > 0) {
     work_->add_impacts(before_, state, report);
   } else {
-    work_->add(state);
+    work_->add(state, &before_);
   }
-  readings_->follow(*observer_, work_->work(), before_, state);
+  work_->add_parameters(before_, state);
+  if (readings_->follow(*observer_, work_->work(), before_, state)) {
+    work_->take_jump(state);
+    work_->take_inputs(state);
+  }
   const std::vector<EventWatch::Found> found = events_->after_step(before_, state);
   note_events(found);
   if (recording_) recording_->after_step(before_, state, is_done());

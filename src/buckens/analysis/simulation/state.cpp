@@ -184,6 +184,7 @@ void SimulationRun::set_signal(const std::string& name, double value) {
                             dynamics::circumstances_of(state), changes, state.memory);
   };
   follow({{signal.first_state, value}});
+  work_->take_jump(state);
   has_new_inputs_ = true;
   observed_at_ = -1;
   if (steps_taken_ > 0) return;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/analysis/simulation/work_account.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "buckens/loads/contact_friction.h"
@@ -37,6 +38,12 @@ void set_motions(const model::Model& model, const model::State& state,
 WorkAccount::WorkAccount(const model::Model& model, const model::State& start, bool holds_at_states)
     : model_(model),
       joints_(model),
+      parameters_(model, start),
+      has_samples_(std::any_of(model.signals.all.begin(), model.signals.all.end(),
+                               [](const model::Signal& signal) {
+                                 return signal.is_sampled() ||
+                                        (signal.block && signal.block->samples_each_step());
+                               })),
       laws_before_(start.memory.laws),
       t_(start.t),
       lambda_before_(start.lambda),
@@ -59,17 +66,21 @@ WorkAccount::WorkAccount(const model::Model& model, const model::State& start, b
 }
 
 WorkAccount::Powers WorkAccount::powers_at(const model::State& state,
-                                           const std::vector<dynamics::BodyMotion>& motions) {
+                                           const std::vector<dynamics::BodyMotion>& motions,
+                                           const std::vector<double>* signals) {
   Powers out;
-  dynamics::evaluate_forces(model_, motions, state.t, dynamics::circumstances_of(state), forces_);
+  dynamics::Circumstances around = dynamics::circumstances_of(state);
+  around.signals = signals;
+  dynamics::evaluate_forces(model_, motions, state.t, around, forces_);
   out.active = forces_.active_power + forces_.dissipation;
   out.damping = forces_.dissipation;
   return out;
 }
 
-void WorkAccount::find_powers(const model::State& state, Powers& out) {
+void WorkAccount::find_powers(const model::State& state, Powers& out,
+                              const std::vector<double>* signals) {
   set_motions(model_, state, motions_);
-  const Powers of_loads = powers_at(state, motions_);
+  const Powers of_loads = powers_at(state, motions_, signals);
   out.active = of_loads.active;
   out.damping = of_loads.damping;
   joints_.evaluate(motions_, state.t, &state.memory, residuals_, &state.lambda, &forces_);
@@ -101,8 +112,17 @@ double WorkAccount::landed(const model::State& state) {
   return sum;
 }
 
+void WorkAccount::add_shares(std::span<const ParameterWork::Share> shares) {
+  for (const ParameterWork::Share& share : shares) {
+    work_.external += share.work;
+    part(parts_.of_load(share.load).supplied) += share.work;
+    turnover_ += std::abs(share.work);
+  }
+}
+
 void WorkAccount::take_event(const model::State& state, double gained, double lost) {
   take_inputs(state);
+  parameters_.restart(state);
   lambda_before_ = lambda_start_ = state.lambda;
   lambda_time_ = state.lambda_time;
   work_.external += gained;
@@ -123,8 +143,15 @@ long WorkAccount::num_products() const {
   return sum;
 }
 
-void WorkAccount::add(const model::State& state) {
-  find_powers(state, now_);
+void WorkAccount::add(const model::State& state, const model::State* before) {
+  const bool may_jump = has_samples_ && before != nullptr;
+  if (may_jump) {
+    set_motions(model_, state, motions_);
+    dynamics::Circumstances around = dynamics::circumstances_of(*before);
+    around.lambda = &state.lambda;
+    dynamics::evaluate_signals(model_, motions_, state.t, around, unsampled_);
+  }
+  find_powers(state, now_, may_jump ? &unsampled_.values : nullptr);
   Powers mean;
   mean.active = 0.5 * (before_.active + now_.active);
   mean.damping = 0.5 * (before_.damping + now_.damping);
@@ -133,6 +160,7 @@ void WorkAccount::add(const model::State& state) {
   add_halves(forces_.of_loads, &dynamics::LoadPower::lost, means_);
   add_halves(forces_.of_loads, &dynamics::LoadPower::rubbed, means_);
   add_step(state, mean, nullptr, RatesAtEnd::are_smooth);
+  if (may_jump) take_inputs(state);
 }
 
 void WorkAccount::add_impacts(const model::State& before, const model::State& state,

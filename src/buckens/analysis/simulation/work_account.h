@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "buckens/analysis/simulation/damping_work.h"
+#include "buckens/analysis/simulation/parameter_work.h"
 #include "buckens/base/saved_values.h"
 #include "buckens/dynamics/joint_set.h"
 #include "buckens/model/model.h"
@@ -25,12 +27,21 @@ class WorkAccount {
   WorkAccount(const model::Model& model, const model::State& start, bool holds_at_states = false);
 
   /// Adds the work between the last state and this one.
-  void add(const model::State& state);
+  /// @param before the last state: where samples are taken at the end of the step, what follows
+  ///        them jumps after it; null: nothing jumps
+  void add(const model::State& state, const model::State* before = nullptr);
   /// The same for a step in which something struck: rates jump within it, so those at its ends do
   /// not tell the way, and the power of loads is formed with the mean ones.
   /// @param before the last state, @param impacts of the step: what they took
   void add_impacts(const model::State& before, const model::State& state,
                    const stepping::StepReport& impacts);
+
+  /// Adds what springs gained over the same step as their parameters followed time and signals.
+  void add_parameters(const model::State& before, const model::State& state) {
+    add_shares(parameters_.over_step(before, state));
+  }
+  /// To be called when signals of the last state have jumped.
+  void take_jump(const model::State& state) { add_shares(parameters_.of_jump(state)); }
 
   /// To be called when inputs of the last state were changed: the next step starts with them.
   void take_inputs(const model::State& state);
@@ -66,9 +77,12 @@ class WorkAccount {
     linalg::Vector g_t;  ///< ∂g/∂t of the joints
   };
   /// Leaves the forces at the state in forces_, and powers of loads with them.
-  void find_powers(const model::State& state, Powers& out);
+  /// @param signals null, or their values in place of those of the state
+  void find_powers(const model::State& state, Powers& out,
+                   const std::vector<double>* signals = nullptr);
   /// Of loads and dampers at a configuration, with other velocities.
-  Powers powers_at(const model::State& state, const std::vector<dynamics::BodyMotion>& motions);
+  Powers powers_at(const model::State& state, const std::vector<dynamics::BodyMotion>& motions,
+                   const std::vector<double>* signals = nullptr);
   /// Adds the step that ends with now_.
   /// @param loads mean power of loads and dampers over the step
   /// @param impacts null: none
@@ -78,6 +92,7 @@ class WorkAccount {
   /// @param first,last multipliers at its start and end
   void add_parts(double h, const linalg::Vector& first, const linalg::Vector& last,
                  const linalg::Vector& g_t, const stepping::StepReport* impacts);
+  void add_shares(std::span<const ParameterWork::Share> shares);
   double& part(std::size_t k) { return work_.parts[static_cast<Eigen::Index>(k)]; }
   /// Power of friction in contacts that closed in an impact of this step: it is in the loss of the
   /// impact, and begins with the next step [W]. Takes it out of means_.
@@ -86,6 +101,9 @@ class WorkAccount {
   const model::Model& model_;
   dynamics::JointSet joints_;
   std::vector<DampingWork> meshes_;
+  ParameterWork parameters_;
+  bool has_samples_;
+  dynamics::SignalValues unsampled_;
   dynamics::Forces forces_;
   dynamics::JointResiduals residuals_;
   Powers before_, now_;

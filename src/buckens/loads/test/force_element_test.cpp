@@ -110,7 +110,7 @@ TEST(ForceElement, ActsAndReacts) {
 Wrenches soft_force(const ForceElement& element, const MarkerMotion& first,
                     const MarkerMotion& second, const Wrenches& change, bool elastic) {
   std::vector<SoftRow> rows;
-  element.append_soft_rows(first, second, rows);
+  element.append_tangent({0.0, first, second}, rows);
   EXPECT_EQ(rows.size(), static_cast<std::size_t>(element.num_soft_rows()));
   Wrenches out = Wrenches::Zero();
   for (const SoftRow& row : rows) {

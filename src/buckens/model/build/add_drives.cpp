@@ -34,11 +34,7 @@ Signal integral_of(base::SignalLaw input, const joints::JointSpec& joint, const 
 
 /// A formula that is one signal.
 base::SignalLaw itself(int signal, const Model& model) {
-  base::SignalLaw out;
-  out.formula = base::Expression("s", {"t", "s"}, {}, {});
-  out.names = {model.signals.all[static_cast<std::size_t>(signal)].name};
-  out.places = {signal};
-  return out;
+  return base::SignalLaw::of(model.signals.all[static_cast<std::size_t>(signal)].name, signal);
 }
 
 /// How smooth all signals are; those that feed back into themselves are as smooth as what else

@@ -212,7 +212,8 @@ class JointBuilder {
     const joints::Placement p = find_.placement(load.first, load.second);
     load.element = std::make_unique<loads::Bushing>(
         loads::Bushing::Coefficients{kind.stiffness, kind.rotational_stiffness, kind.damping,
-                                     kind.rotational_damping, kind.forces, kind.torques},
+                                     kind.rotational_damping, kind.forces, kind.torques,
+                                     kind.stiffness_factor, kind.damping_factor},
         p.R_WF.transpose() * p.R_WM, p.r_F);
     load.kind = joints::BushingSpec::kKey;
     load.is_among_joints = true;

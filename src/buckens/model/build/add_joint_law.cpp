@@ -14,6 +14,7 @@
 #include "buckens/loads/coordinate_motor.h"
 #include "buckens/loads/joint_friction.h"
 #include "buckens/loads/rigid_law.h"
+#include "buckens/model/build/friction_laws.h"
 
 namespace buckens::model {
 
@@ -117,7 +118,7 @@ class JointLawBuilder {
     return make_spring(kind, kind.displacement);
   }
   template <class Spec>
-  static Element make_spring(const Spec& kind, double free) {
+  static Element make_spring(const Spec& kind, const base::SignalLaw& free) {
     if (kind.characteristic) {
       return std::make_shared<loads::CoordinateCurve>(kind.stiffness, kind.damping, free,
                                                       *kind.characteristic);
@@ -161,11 +162,7 @@ class JointLawBuilder {
   loads::FrictionData common(const loads::JointFrictionBase& kind,
                              const Coordinate& coordinate) const {
     loads::FrictionData out;
-    out.static_coefficient = kind.coefficient;
-    out.dynamic_coefficient = kind.dynamic.value_or(kind.coefficient);
     out.stribeck_rate = kind.stribeck.value_or(0.0);
-    out.viscous = kind.viscous;
-    out.preload = kind.preload;
     out.bearing_length = kind.length.value_or(0.0);
     out.inertia = moved_inertia(find_.model(), coordinate, find_);
     return out;
@@ -187,14 +184,16 @@ class JointLawBuilder {
   static Element friction(const loads::JointFrictionBase& kind, const loads::FrictionData& data,
                           const Coordinate& coordinate) {
     if (kind.stick == loads::FrictionStick::rigid) {
-      return std::make_shared<loads::RigidFriction>(data, coordinate.law.axis());
+      return std::make_shared<loads::RigidFriction>(data, coordinate.law.axis(),
+                                                    friction_laws(kind));
     }
     if (kind.stick == loads::FrictionStick::bristles) {
       const loads::BristleData bristles{*kind.bristle_stiffness, kind.bristle_damping.value_or(0.0),
                                         kind.elastic_share};
-      return std::make_shared<loads::BristleFriction>(data, bristles, coordinate.law.axis());
+      return std::make_shared<loads::BristleFriction>(data, bristles, coordinate.law.axis(),
+                                                      friction_laws(kind));
     }
-    return std::make_shared<loads::JointFriction>(data, coordinate.law.axis());
+    return std::make_shared<loads::JointFriction>(data, coordinate.law.axis(), friction_laws(kind));
   }
 
   const loads::LoadSpec& spec_;
@@ -262,6 +261,9 @@ void add_lock(const joints::JointSpec& joint, const EventSpec& event, MarkerFind
   for (std::size_t k = 0; k < count; ++k) {
     const base::CoordinateChoice which =
         model.joints[static_cast<std::size_t>(owner)].coordinates[k].which;
+    // A wheel's way is that of its angle: one row holds both.
+    const joints::JointType type = model.joints[static_cast<std::size_t>(owner)].type;
+    if (type == joints::JointType::rolling && which != base::CoordinateChoice::angle) continue;
     const int index = find_coordinate(joint.name, which, base::CoordinateSort::any, find);
     const Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(index)];
     if (model.joints[static_cast<std::size_t>(coordinate.joint)].track) {

@@ -22,6 +22,7 @@
 #include "buckens/model/build/add_contacts.h"
 #include "buckens/model/build/add_gear_teeth.h"
 #include "buckens/model/build/find_factor.h"
+#include "buckens/model/build/friction_laws.h"
 
 namespace buckens::model {
 
@@ -133,7 +134,8 @@ class LoadBuilder {
     load.second = find_.marker(kind.between[1], true);
     find_.require_two_bodies(load.first, load.second, fmt::format("load \"{}\"", load.name), where);
     const double distance = (find_.placed(load.second).p - find_.placed(load.first).p).norm();
-    if (distance == 0.0 && (kind.length.value_or(0.0) > 0.0 || kind.force || kind.characteristic)) {
+    const bool has_length = kind.length && !kind.length->is_number(0.0);
+    if (distance == 0.0 && (has_length || kind.force || kind.characteristic)) {
       throw InputError(where,
                        fmt::format("load \"{}\": its markers coincide as placed, so its force "
                                    "has no direction; place them apart or use a bushing",
@@ -193,11 +195,7 @@ class LoadBuilder {
     find_.require_moment(load.first, what, where);
     find_.require_moment(load.second, what, where);
     loads::FrictionData data;
-    data.static_coefficient = kind.coefficient;
-    data.dynamic_coefficient = kind.dynamic.value_or(kind.coefficient);
     data.stribeck_rate = kind.stribeck.value_or(0.0);
-    data.viscous = kind.viscous;
-    data.preload = kind.preload;
     data.slip = kind.slip.value_or(kSlipAngle);
     data.radius = kind.radius;
     data.inertia = moved_inertia(model, joint);
@@ -206,7 +204,7 @@ class LoadBuilder {
       const joints::ConstraintRow& cross = joint.rows.back();
       arms = {cross.direction(), cross.second_direction()};
     }
-    load.element = std::make_unique<loads::BallFriction>(data, arms);
+    load.element = std::make_unique<loads::BallFriction>(data, arms, friction_laws(kind));
   }
 
   void add_torsional(const loads::TorsionalSpringSpec& kind, Load& load,
@@ -220,11 +218,12 @@ class LoadBuilder {
     joints::Placement p = find_.placement(load.first, load.second);
     p.axis_F = find_.axis_or_normal(kind.axis, p.R_WF, what, where);
     find_.require_across_plane(p.R_WF * joints::unit_axis(p), "a torsional spring", what, where);
-    if (std::abs(kind.angle) >= loads::TorsionalSpring::kLargestAngle) {
+    const double free = kind.angle.number().value_or(0.0);
+    if (std::abs(free) >= loads::TorsionalSpring::kLargestAngle) {
       throw InputError(where,
                        fmt::format("{}: a torsional spring measures up to {} rad from the "
                                    "position as placed, its free angle {:.4g} rad lies beyond",
-                                   what, loads::TorsionalSpring::kLargestAngle, kind.angle));
+                                   what, loads::TorsionalSpring::kLargestAngle, free));
     }
     load.element = std::make_unique<loads::TorsionalSpring>(
         joints::unit_axis(p), p.R_WF.transpose() * p.R_WM, kind.stiffness, kind.damping, kind.angle,

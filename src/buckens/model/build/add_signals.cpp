@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/visit_fields.h"
 #include "buckens/model/build/add_joint_law.h"
 #include "buckens/model/function_signal.h"
 
@@ -164,25 +166,29 @@ class Sorter {
     const Signal& signal = model_.signals.all[k];
     const std::string& name = model_.signals.all[j].name;
     if (const FunctionSignal* function = function_of(signal)) return function->takes(name);
-    const auto uses = [&](const base::SignalLaw& law) { return law.uses(name); };
-    if (signal.kind == Signal::Kind::formula) return uses(signal.input);
-    if (signal.block) return signal.block->feeds_through() && uses(signal.input);
-    if (signal.kind != Signal::Kind::force) return false;
-    const Load& load = model_.loads[static_cast<std::size_t>(signal.load)];
-    const auto* spec = base::find_named(description_.loads, load.name);
-    return spec != nullptr && std::visit(
-                                  [&]<class T>(const T& kind) {
-                                    if constexpr (requires { kind.position; }) {
-                                      return (kind.force && uses(*kind.force)) ||
-                                             (kind.position && uses(*kind.position)) ||
-                                             (kind.speed && uses(*kind.speed));
-                                    }
-                                    if constexpr (requires { kind.bound; }) {
-                                      return uses(kind.bound);
-                                    }
-                                    return false;
-                                  },
-                                  spec->kind);
+    if (signal.kind == Signal::Kind::formula) return signal.input.uses(name);
+    if (signal.block) return signal.block->feeds_through() && signal.input.uses(name);
+    const int load = signal.reading ? signal.reading->load : signal.load;
+    return load >= 0 && law_uses(model_.loads[static_cast<std::size_t>(load)].name, name);
+  }
+
+  /// Whether a force law follows a signal.
+  bool law_uses(const std::string& load, const std::string& signal) const {
+    bool uses = false;
+    const auto look = [&](const auto& field) {
+      using T = std::decay_t<decltype(field.member)>;
+      if constexpr (std::is_same_v<T, base::SignalLaw>) uses = uses || field.member.uses(signal);
+      if constexpr (std::is_same_v<T, std::optional<base::SignalLaw>>) {
+        uses = uses || (field.member && field.member->uses(signal));
+      }
+    };
+    const auto look_at = [&](const auto& kind) { base::visit_fields(kind, look); };
+    if (const auto* spec = base::find_named(description_.loads, load)) {
+      std::visit(look_at, spec->kind);
+    } else if (const auto* joint = base::find_named(description_.joints, load)) {
+      std::visit(look_at, joint->kind);
+    }
+    return uses;
   }
 
   void visit(std::size_t k) {

@@ -31,6 +31,7 @@
 #include "buckens/model/build/read_within_steps.h"
 #include "buckens/model/build/reduce_bodies.h"
 #include "buckens/model/check/check_description.h"
+#include "buckens/model/check/event_parameters.h"
 #include "buckens/model/check/flat_mesh.h"
 #include "buckens/model/contact_group.h"
 
@@ -443,6 +444,7 @@ class Builder {
 
 std::unique_ptr<BuiltModel> build_model(ModelDescription description, body::BasisStore* bases) {
   require_sound(description);
+  make_settings_of_parameters(description);
   return Builder(std::move(description), bases).run();
 }
 

@@ -96,7 +96,9 @@ class Walker {
   template <class T>
   void value(const std::string& path, const base::FieldNote& field, const T& member) {
     if (found) return;
-    if constexpr (std::is_same_v<T, base::MarkerRef>) {
+    if constexpr (std::is_same_v<T, base::SignalLaw>) {
+      if (const std::optional<double> number = member.number()) value(path, field, *number);
+    } else if constexpr (std::is_same_v<T, base::MarkerRef>) {
       if (member.body.empty()) return;  // not given
       note(path, marker_problem(member, description_));
       if (found && !member.where.empty()) where = member.where;

@@ -67,13 +67,26 @@ Found stop_problem(const loads::JointStop& spec, const char* unit) {
   return std::nullopt;
 }
 
+bool rolls(const joints::JointSpec& joint) {
+  return std::holds_alternative<joints::RollingSpec>(joint.kind);
+}
+
+/// A number behind its key; nothing of a formula.
+std::string shown(const base::SignalLaw& law) {
+  const std::optional<double> number = law.number();
+  return number ? fmt::format(": {:g}", *number) : "";
+}
+
 Found friction_problem(const loads::JointFrictionBase& spec) {
-  if (spec.dynamic && *spec.dynamic > spec.coefficient) {
+  const std::optional<double> sticking = spec.coefficient.number();
+  const std::optional<double> sliding = spec.dynamic ? spec.dynamic->number() : std::nullopt;
+  if (sliding && sticking && *sliding > *sticking) {
     return Finding{"dynamic", fmt::format("friction is {:g} while it slides, more than {:g} while "
                                           "it sticks; swap `static` and `dynamic`",
-                                          *spec.dynamic, spec.coefficient)};
+                                          *sliding, *sticking)};
   }
-  if (spec.dynamic && *spec.dynamic < spec.coefficient && !spec.stribeck) {
+  const bool are_equal = sliding && sticking && *sliding == *sticking;
+  if (spec.dynamic && !are_equal && !spec.stribeck) {
     return Finding{
         "stribeck-velocity",
         "the key \"stribeck-velocity\" is missing; where `static` and `dynamic` differ it "
@@ -99,7 +112,8 @@ Found friction_problem(const loads::JointFrictionBase& spec) {
                    "bristles slip by their `bristle-stiffness`; remove this key, or write "
                    "`stick: elastic`"};
   }
-  if (spec.coefficient == 0.0 && spec.preload == 0.0 && spec.viscous == 0.0) {
+  if (spec.coefficient.is_number(0.0) && spec.preload.is_number(0.0) &&
+      spec.viscous.is_number(0.0)) {
     return Finding{"static",
                    "friction without `static`, `preload` or `viscous` has no effect; give "
                    "one of them"};
@@ -110,14 +124,16 @@ Found friction_problem(const loads::JointFrictionBase& spec) {
 Found friction_problem(const loads::HingeFrictionSpec& spec) {
   if (Found found = friction_problem(static_cast<const loads::JointFrictionBase&>(spec)))
     return found;
-  if (spec.coefficient == 0.0 || spec.radius > 0.0 || spec.axial_radius > 0.0) return std::nullopt;
+  if (spec.coefficient.is_number(0.0) || spec.radius > 0.0 || spec.axial_radius > 0.0) {
+    return std::nullopt;
+  }
   return Finding{
       "radius",
-      fmt::format("forces on a pin without radius cause no torque, so that `static: {:g}` has no "
+      fmt::format("forces on a pin without radius cause no torque, so that `static{}` has no "
                   "effect; give the `radius` of the pin or the `axial-radius` of its collar, or {}",
-                  spec.coefficient,
-                  spec.preload > 0.0 ? "leave out `static` and keep `preload` alone"
-                                     : "a `preload` in place of `static`")};
+                  shown(spec.coefficient),
+                  !spec.preload.is_number(0.0) ? "leave out `static` and keep `preload` alone"
+                                               : "a `preload` in place of `static`")};
 }
 
 /// A motor that has its speed or position exactly has limits, and no force beside them.
@@ -148,7 +164,7 @@ Found return_problem(const loads::MotorSpec& spec, const char* position, const c
         "return-time",
         fmt::format("there is no `{0}` to come back to; give this `{0}`, or remove it", position)};
   }
-  if (spec.stiffness > 0.0 || spec.damping > 0.0) {
+  if (!spec.stiffness.is_number(0.0) || !spec.damping.is_number(0.0)) {
     return Finding{"return-time",
                    "it belongs to a motor without gains; remove it, or `stiffness` and `damping`"};
   }
@@ -179,31 +195,31 @@ Found motor_problem(const loads::MotorSpec& spec, bool turns) {
   const char* speed = turns ? "speed" : "velocity";
   if (spec.return_time) {
     if (Found found = return_problem(spec, position, speed)) return found;
-  } else if (spec.position && spec.stiffness == 0.0) {
+  } else if (spec.position && spec.stiffness.is_number(0.0)) {
     return Finding{
         position,
         fmt::format("a target `{0}` has no effect without `stiffness`, the gain on its error; give "
                     "this gain, or a `return-time` to follow it exactly within a `{1}`",
                     position, turns ? "torque-limit" : "force-limit")};
   }
-  if (spec.stiffness > 0.0 && !spec.position) {
+  if (!spec.stiffness.is_number(0.0) && !spec.position) {
     return Finding{
         "stiffness",
         fmt::format("a gain on the {0} needs a target `{0}`, for example {0}: 0", position)};
   }
   if (spec.is_exact()) return exact_motor_problem(spec, turns);
-  if (spec.speed && spec.damping == 0.0) {
+  if (spec.speed && spec.damping.is_number(0.0)) {
     return Finding{
         speed,
         fmt::format("a {0} has no effect without `damping`, the gain on its error; give this gain",
                     speed)};
   }
-  if (spec.damping > 0.0 && !spec.position && !spec.speed) {
+  if (!spec.damping.is_number(0.0) && !spec.position && !spec.speed) {
     return Finding{
         "damping",
         fmt::format("a gain on the {0} needs a target `{0}`, for example {0}: 0", speed)};
   }
-  if (!spec.force && spec.stiffness == 0.0 && spec.damping == 0.0) {
+  if (!spec.force && spec.stiffness.is_number(0.0) && spec.damping.is_number(0.0)) {
     const char* force = turns ? "torque" : "force";
     return Finding{force,
                    fmt::format("a motor without `{}`, `stiffness` or `damping` does nothing; "
@@ -240,7 +256,7 @@ Found own_joint_problem(const loads::RopeSpec& spec, const ModelDescription&) {
 Found own_joint_problem(const loads::HingeFrictionSpec& spec, const ModelDescription& model) {
   if (Found found = law_problem(spec, model)) return found;
   const joints::JointSpec& joint = *base::find_named(model.joints, spec.joint);
-  if (!joint.has(base::CoordinateChoice::angle) ||
+  if (!joint.has(base::CoordinateChoice::angle) || rolls(joint) ||
       joint.has(base::CoordinateChoice::second_angle)) {
     const bool is_cross = joint.has(base::CoordinateChoice::second_angle);
     const bool is_ball = std::holds_alternative<joints::SphericalSpec>(joint.kind);
@@ -257,6 +273,11 @@ Found own_joint_problem(const loads::HingeFrictionSpec& spec, const ModelDescrip
 Found own_joint_problem(const loads::SlideFrictionSpec& spec, const ModelDescription& model) {
   if (Found found = law_problem(spec, model)) return found;
   const joints::JointSpec& joint = *base::find_named(model.joints, spec.joint);
+  if (rolls(joint)) {
+    return Finding{"joint", fmt::format("joint \"{}\" is a rolling, which does not slide; use the "
+                                        "`damping` of a `slide-spring`, or a `slide-brake`",
+                                        spec.joint)};
+  }
   if (!joint.has(base::CoordinateChoice::displacement)) {
     return Finding{"joint",
                    fmt::format("joint \"{}\" is a {}, whose friction has one direction, that in "
@@ -288,10 +309,10 @@ Found own_joint_problem(const loads::BallFrictionSpec& spec, const ModelDescript
   if (Found found = friction_problem(static_cast<const loads::JointFrictionBase&>(spec))) {
     return found;
   }
-  if (spec.coefficient == 0.0 || spec.radius > 0.0) return std::nullopt;
+  if (spec.coefficient.is_number(0.0) || spec.radius > 0.0) return std::nullopt;
   return Finding{"radius", fmt::format("forces on a ball without radius cause no torque, so that "
-                                       "`static: {:g}` has no effect; give the `radius`",
-                                       spec.coefficient)};
+                                       "`static{}` has no effect; give the `radius`",
+                                       shown(spec.coefficient))};
 }
 
 Found own_joint_problem(const loads::HingeMotorSpec& spec, const ModelDescription& model) {

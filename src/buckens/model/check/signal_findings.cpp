@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/nearest.h"
+#include "buckens/model/check/event_parameters.h"
 #include "buckens/model/check/joint_findings.h"
 #include "buckens/model/check/marker_names.h"
 #include "buckens/model/check/spec_findings.h"
@@ -78,6 +79,10 @@ Found changes_problem(const EventSpec& spec, const ModelDescription& model) {
     if (signal.setting) settings.push_back(signal.name);
   }
   for (const SettingChange& change : spec.changes) {
+    if (names_parameter(change)) {
+      if (Found found = parameter_problem(change, model)) return found;
+      continue;
+    }
     if (std::find(settings.begin(), settings.end(), change.name) != settings.end()) continue;
     if (base::find_named(model.signals, change.name) != nullptr) {
       return Finding{"set",

@@ -23,8 +23,9 @@ enum class EventAction { note, stop };
 
 constexpr std::array<const char*, 2> choice_names(EventAction) { return {"note", "stop"}; }
 
-/// The value that a signal with a `setting` is given.
+/// The value that a signal with a `setting`, or a parameter of a force law, is given.
 struct SettingChange {
+  static constexpr bool kHasForeignName = true;  ///< "loads.damper.damping"
   std::string name;
   SourceLocation where;
   base::SignalLaw value;
@@ -69,8 +70,10 @@ struct EventSpec {
     visit(base::field("direction", direction, "which way it goes"));
     visit(base::field("do", action,
                       "`note` the time in the summary of the run, or note it and `stop`"));
-    visit(base::field("set", changes, "new values of signals with a `setting`")
-              .like("{target: 0.5, gain: \"2*gain\"}"));
+    visit(base::field("set", changes,
+                      "new values of signals with a `setting`, and of parameters of springs, "
+                      "dampers, friction in joints, motors and brakes")
+              .like("{target: 0.5, gain: \"2*gain\", loads.damper.damping: 20 N s/m}"));
     visit(base::field("switch-on", switch_on, "loads, springs, motors … that act from now on")
               .like("[motor]"));
     visit(base::field("switch-off", switch_off, "loads, springs, motors … that no longer act")

@@ -89,6 +89,7 @@ class LineCollector {
     put(path, text);
   }
   void add_special(const std::string& path, const base::SignalLaw& value) {
+    if (const std::optional<double> number = value.number()) return put(path, text_of(*number));
     if (!value.formula) return add_special(path, value.law);
     put(path, fmt::format("{} x {}", value.formula->text(), value.scale));
   }

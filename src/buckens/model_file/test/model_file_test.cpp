@@ -180,9 +180,9 @@ TEST(ModelFile, JointsAndLoads) {
   EXPECT_TRUE(push.value[0].is_constant());
   EXPECT_EQ(push.axes, loads::LoadAxes::following);
   const auto& spring = std::get<loads::SpringDamperSpec>(entry(m.loads, "spring").kind);
-  EXPECT_DOUBLE_EQ(spring.stiffness, 2000);
-  EXPECT_DOUBLE_EQ(*spring.length, 0.12);
-  EXPECT_DOUBLE_EQ(spring.force->value(2), 6);
+  EXPECT_EQ(spring.stiffness.number(), 2000);
+  EXPECT_DOUBLE_EQ(spring.length->number().value(), 0.12);
+  EXPECT_DOUBLE_EQ(spring.force->law.value(2), 6);
 }
 
 TEST(ModelFile, InitialSimulationOutput) {
