@@ -128,7 +128,7 @@ output: {every: 10 ms, sensors: {c: {position: cage}}}
     ("loads: {s: {hinge-friction: {joint: ball, which: swing, static: 0.1, radius: 0.1}}}", ["is a spherical, which rubs about all axes", "`ball-friction`"]),
     ("loads: {s: {hinge-friction: {joint: knuckle, static: 0.1, radius: 0.1}}}", ["is a constant-velocity, which rubs in a way of its own", "`damping`"]),
     ("loads: {s: {hinge-spring: {joint: link, stiffness: 1}}}", ["joint \"link\" is a distance, which has no angle: a rod moves as its ends do", "`relative`"]),
-    ("loads: {s: {slide-stop: {joint: wheel, to: 1}}}", ["joint \"wheel\" is a rolling, which has no displacement: how far a wheel has rolled", "axle"]),
+    ("loads: {s: {slide-stop: {joint: wheel, which: x, to: 1}}}", ["which has no displacement x; its coordinates are `angle`, `displacement`"]),
     ("signals: {s: {joint-angle: pair}}", ["joint \"pair\" is a gear, which has no angle: a gear couples the angles of two joints"]),
     ("signals: {s: {joint-displacement: bar}}", ["joint \"bar\" is a rack, which has no displacement: a rack couples"]),
     ("signals: {s: {joint-rate: strap}}", ["joint \"strap\" is a belt, which has no angle: a belt couples"]),

@@ -6,7 +6,8 @@
 namespace buckens::joints {
 
 /// How a joint coordinate is measured where that takes more than an axis: the way along a curve
-/// (PathCoordinate), the angles of a ball joint (Swing, Twist).
+/// (PathCoordinate), the angles of a ball joint (Swing, Twist), how far a wheel has rolled
+/// (RolledWay).
 class CoordinateMeasure {
  public:
   virtual ~CoordinateMeasure() = default;

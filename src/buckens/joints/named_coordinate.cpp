@@ -7,6 +7,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/joints/path_coordinate.h"
 #include "buckens/joints/path_row.h"
+#include "buckens/joints/rolled_way.h"
 #include "buckens/joints/swing_twist.h"
 
 namespace buckens::joints {
@@ -46,6 +47,7 @@ class CoordinateMaker {
   }
 
   JointCoordinate make(base::CoordinateChoice which) const {
+    if (type_ == JointType::rolling) return rolled(which);
     switch (which) {
       case base::CoordinateChoice::angle:
         return type_ == JointType::universal
@@ -79,6 +81,12 @@ class CoordinateMaker {
     const auto& row = static_cast<const PathRow&>(*rows_.front().law());
     return JointCoordinate::measured(
         std::make_shared<PathCoordinate>(row.shared_curve(), row.across(), placement_.r_F));
+  }
+
+  JointCoordinate rolled(base::CoordinateChoice which) const {
+    const auto& row = static_cast<const RollingRow&>(*rows_.front().law());
+    return JointCoordinate::measured(
+        std::make_shared<RolledWay>(row.data(), R_FM_, which == base::CoordinateChoice::angle));
   }
 
   /// Of x, y or z.

@@ -20,20 +20,16 @@ constexpr double kFlat = 1e-6;
 
 }  // namespace
 
-/// World components.
-struct RollingRow::View {
-  Vector3d n, a;
-  double tilt, lean;  // a·n and |n − a (a·n)|
-  Vector3d e;         // away from the contact across the axis
-  Vector3d ahead;     // (a × n)/|a × n|
-  Vector3d rho, x;    // from the centre, and from F, to the contact
-  Vector3d d;         // direction of the row
+struct RollingRow::View : RollingRow::Stand {
+  Vector3d rho, x;  // from the centre, and from F, to the contact
+  Vector3d d;       // direction of the row
 };
 
-RollingRow::View RollingRow::look(const MarkerMotion& F, const MarkerMotion& M) const {
-  View out;
-  out.n = F.R * data_.normal_F;
-  out.a = M.R * data_.axis_M;
+RollingRow::Stand RollingRow::stand(const Data& data, const MarkerMotion& F,
+                                    const MarkerMotion& M) {
+  Stand out;
+  out.n = F.R * data.normal_F;
+  out.a = M.R * data.axis_M;
   out.tilt = out.a.dot(out.n);
   const Vector3d across = out.n - out.tilt * out.a;
   out.lean = across.norm();
@@ -44,6 +40,22 @@ RollingRow::View RollingRow::look(const MarkerMotion& F, const MarkerMotion& M) 
   }
   out.e = across / out.lean;
   out.ahead = out.a.cross(out.n) / out.lean;
+  return out;
+}
+
+RollingRow::StandRates RollingRow::rates(const Stand& at, const MarkerMotion& F,
+                                         const MarkerMotion& M) {
+  StandRates out;
+  out.n = F.w.cross(at.n);
+  out.a = M.w.cross(at.a);
+  out.tilt = out.a.dot(at.n) + at.a.dot(out.n);
+  out.lean = -at.tilt * out.tilt / at.lean;
+  out.e = (out.n - out.tilt * at.a - at.tilt * out.a - out.lean * at.e) / at.lean;
+  return out;
+}
+
+RollingRow::View RollingRow::look(const MarkerMotion& F, const MarkerMotion& M) const {
+  View out{stand(data_, F, M), {}, {}, {}};
   out.rho = -(data_.radius - data_.edge) * out.e - data_.edge * out.n;
   out.x = M.p - F.p + out.rho;
   out.d = direction_ == Direction::normal  ? out.n
@@ -65,11 +77,7 @@ RowValue RollingRow::evaluate(const MarkerMotion& F, const MarkerMotion& M,
 double RollingRow::bias(const MarkerMotion& F, const MarkerMotion& M, const MarkerBias& bias_F,
                         const MarkerBias& bias_M, const double* /*states*/) const {
   const View at = look(F, M);
-  const Vector3d n_dot = F.w.cross(at.n);
-  const Vector3d a_dot = M.w.cross(at.a);
-  const double tilt_dot = a_dot.dot(at.n) + at.a.dot(n_dot);
-  const double lean_dot = -at.tilt * tilt_dot / at.lean;
-  const Vector3d e_dot = (n_dot - tilt_dot * at.a - at.tilt * a_dot - lean_dot * at.e) / at.lean;
+  const auto [n_dot, a_dot, tilt_dot, lean_dot, e_dot] = rates(at, F, M);
   const Vector3d rho_dot = -(data_.radius - data_.edge) * e_dot - data_.edge * n_dot;
   const Vector3d x_dot = M.v - F.v + rho_dot;
   const Vector3d ahead_dot =

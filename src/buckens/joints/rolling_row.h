@@ -25,6 +25,24 @@ class RollingRow final : public RowLaw {
 
   const Data& data() const { return data_; }
 
+  /// How a wheel stands on its plane, world components.
+  struct Stand {
+    Eigen::Vector3d n, a;   ///< normal and axis
+    double tilt, lean;      ///< a·n and |n − a (a·n)|
+    Eigen::Vector3d e;      ///< across the axis, away from the contact
+    Eigen::Vector3d ahead;  ///< (a × n)/|a × n|
+  };
+  /// @throws NumericalError if the wheel lies flat
+  static Stand stand(const Data& data, const spatial::MarkerMotion& F,
+                     const spatial::MarkerMotion& M);
+  struct StandRates {
+    Eigen::Vector3d n, a;
+    double tilt, lean;
+    Eigen::Vector3d e;
+  };
+  static StandRates rates(const Stand& at, const spatial::MarkerMotion& F,
+                          const spatial::MarkerMotion& M);
+
   int num_states() const override { return 0; }
   bool holds_rates_only() const override { return direction_ != Direction::normal; }
   /// @throws NumericalError if the wheel lies flat

@@ -69,9 +69,8 @@ struct RollingSpec : JointEnds {
   static constexpr const char* kDoc =
       "a wheel that rolls on a plane without slip; the plane goes through the first marker, the "
       "second is the wheel's centre";
-  static constexpr const char* kInstead =
-      "how far a wheel has rolled depends on its way; name the joint of its axle, whose angle "
-      "counts turns, or integrate the speed of its centre by a signal";
+  static constexpr std::array kCoordinates{base::CoordinateChoice::angle,
+                                           base::CoordinateChoice::displacement};
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of the plane, in the first marker
   std::optional<Eigen::Vector3d> axle;               ///< of the wheel, in the second marker
   double wheel_radius = 0;                           ///< [m]

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/joints/path_coordinate.h"
+#include "buckens/joints/rolled_way.h"
 #include "buckens/joints/swing_twist.h"
 #include "buckens/spatial/test/marker_path.h"
 
@@ -218,6 +219,51 @@ TEST(Twist, IsWhatTheSwingLeaves) {
   M.R = F.R * placed;
   EXPECT_NEAR(twist.look(F, M, nullptr).fraction, 0, 1e-15);
   EXPECT_NEAR(swing.look(F, M, nullptr).fraction, std::acos(a.dot(b)), 1e-14);
+}
+
+RollingRow::Data leaning_wheel() {
+  RollingRow::Data data;
+  data.normal_F = Vector3d(0.2, -0.1, 0.9).normalized();
+  data.axis_M = Vector3d(0.1, 0.8, 0.3).normalized();
+  data.radius = 0.4;
+  data.edge = 0.05;
+  return data;
+}
+
+TEST(RolledWay, RatesAndAccelerationsAreThoseOfTheMark) {
+  const MarkerPath F = MarkerPath::some(1);
+  const MarkerPath M = MarkerPath::some(2);
+  const Matrix3d placed = Eigen::AngleAxisd(0.7, Vector3d(1, 2, -1).normalized()).matrix();
+  const RolledWay angle(leaning_wheel(), placed, true);
+  const RolledWay way(leaning_wheel(), placed, false);
+  compare(angle, F, M);
+  compare(way, F, M);
+  EXPECT_TRUE(angle.is_angle() && !way.is_angle());
+  EXPECT_DOUBLE_EQ(way.look(F.at(0), M.at(0), nullptr).fraction,
+                   0.4 * angle.look(F.at(0), M.at(0), nullptr).fraction);
+  // Where it is known to have been, it is the next of all places that the wheel may have rolled to.
+  const CountedValue before{0, 25.0};
+  const double far = way.look(F.at(0), M.at(0), &before).fraction;
+  EXPECT_LE(std::abs(far - 25.0), 0.5 * 0.4 * kFullTurn);
+  const double turns = (far - way.look(F.at(0), M.at(0), nullptr).fraction) / (0.4 * kFullTurn);
+  EXPECT_NEAR(turns, std::round(turns), 1e-12);  // rounding
+}
+
+/// It turns about its axle, about the normal, and leans: only the first of them rolls.
+TEST(RolledWay, CountsNeitherTurningNorLeaning) {
+  RollingRow::Data data;
+  data.normal_F = Vector3d::UnitZ();
+  data.axis_M = Vector3d::UnitY();
+  const RolledWay angle(data, Matrix3d::Identity(), true);
+  const auto turn = [](double by, const Vector3d& about) {
+    return Eigen::AngleAxisd(by, about).matrix();
+  };
+  for (const double lean : {0.0, 0.6, -1.2}) {
+    spatial::MarkerMotion F, M;
+    M.R =
+        turn(2.0, Vector3d::UnitZ()) * turn(lean, Vector3d::UnitX()) * turn(0.9, Vector3d::UnitY());
+    EXPECT_NEAR(angle.look(F, M, nullptr).fraction, 0.9, 1e-14);  // rounding
+  }
 }
 
 }  // namespace
