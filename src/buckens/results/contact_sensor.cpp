@@ -73,8 +73,12 @@ class ContactsSensor final : public Sensor {
 
   std::vector<Channel> channels() const override { return channels_; }
   void append(const Observation& now, std::vector<double>& values) override {
-    const dynamics::GroupReading reading =
+    dynamics::GroupReading reading =
         dynamics::read_group(now.model, group_, now.motions, now.state.t, circumstances_of(now));
+    const auto& at_rest = now.state.memory.at_rest;
+    if (!at_rest.empty()) {
+      reading.friction = at_rest[now.model.contact_groups[group_]->load].force;  // frozen
+    }
     values.insert(values.end(),
                   {reading.normal, reading.friction, static_cast<double>(reading.touching)});
   }

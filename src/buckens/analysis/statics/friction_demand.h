@@ -22,7 +22,8 @@ struct FrictionDemand {
   std::string text() const;
 };
 
-/// One entry per load with frozen friction, that of a contact summed over its places.
+/// One entry per load with frozen friction, that of a contact summed over its places; of contacts
+/// of many bodies one for every two that rub.
 /// @param state at rest, with the memory that set_static_state() leaves
 std::vector<FrictionDemand> friction_demands(const model::Model& model,
                                              const dynamics::MassMetric& metric,

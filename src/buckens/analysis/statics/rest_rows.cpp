@@ -12,6 +12,7 @@
 #include "buckens/loads/contact.h"
 #include "buckens/loads/contact_friction.h"
 #include "buckens/loads/coordinate_motor.h"
+#include "buckens/model/contact_group.h"
 
 namespace buckens::analysis {
 
@@ -38,6 +39,14 @@ const loads::RigidStop& stop_at(const model::Model& model, const RestRow& row) {
 const loads::Contact* rough_contact(const loads::ForceElement& element) {
   const auto* contact = dynamic_cast<const loads::Contact*>(&element);
   return contact != nullptr && contact->data().static_coefficient > 0.0 ? contact : nullptr;
+}
+
+/// The group of a load that is contacts of many bodies with friction, else null.
+const model::ContactGroup* rough_group(const model::Model& model, std::size_t load) {
+  for (const auto& group : model.contact_groups) {
+    if (group->load == load && group->law.static_coefficient > 0.0) return group.get();
+  }
+  return nullptr;
 }
 
 bool rubs(const loads::ForceElement& element) {
@@ -72,7 +81,7 @@ RestRows::RestRows(const model::Model& model, model::RestFriction friction,
       rows_.push_back(row);
     } else if (friction == model::RestFriction::frozen) {
       add_friction(state, k);
-    } else if (rubs(*load.element)) {
+    } else if (rubs(*load.element) || rough_group(model, k) != nullptr) {
       leaves_friction_ = true;
     }
   }
@@ -91,7 +100,9 @@ void RestRows::add_friction(const model::State& state, std::size_t k) {
   if (load.coordinate >= 0) {
     row.is_angle = model_.coordinates[static_cast<std::size_t>(load.coordinate)].law.is_angle();
   }
-  if (dynamic_cast<const loads::ContactFriction*>(element) != nullptr) {
+  if (rough_group(model_, k) != nullptr) {
+    add_pairs(k);
+  } else if (dynamic_cast<const loads::ContactFriction*>(element) != nullptr) {
     row.kind = Kind::along;
     row.across = static_cast<int>(rows_.size()) - 1;
     while (rows_[static_cast<std::size_t>(row.across)].kind != Kind::one_sided) --row.across;
@@ -109,8 +120,54 @@ void RestRows::add_friction(const model::State& state, std::size_t k) {
   } else if (const auto* brake = dynamic_cast<const loads::CoordinateBrake*>(element)) {
     const auto motions = dynamics::motions_of(model_, state);
     const dynamics::LoadEnds ends = dynamics::ends_of(model_, load, motions, nullptr);
-    if (brake->bound(dynamics::sight_of(model_, k, state.t, {}, ends)) > 0.0) rows_.push_back(row);
+    dynamics::SignalValues signals;
+    const dynamics::Circumstances around =
+        dynamics::with_signals(model_, motions, state.t, {}, signals);
+    const loads::Sight sight = dynamics::sight_of(model_, k, state.t, around, ends);
+    if (brake->bound(sight) > 0.0) rows_.push_back(row);
   }
+}
+
+void RestRows::add_pairs(std::size_t load) {
+  RestRow row{Kind::along, load};
+  for (std::size_t g = 0; g < model_.contact_groups.size(); ++g) {
+    const model::ContactGroup& group = *model_.contact_groups[g];
+    if (group.load != load) continue;
+    for (std::size_t i = 0; i < group.members.size(); ++i) {
+      for (std::size_t j = i + 1; j < group.members.size(); ++j) {
+        if (!group.can_touch(i, j)) continue;
+        const auto [first, second] = group.ordered(i, j);
+        row.pair = static_cast<int>(pairs_.size());
+        pairs_.push_back({static_cast<int>(g), static_cast<int>(first), static_cast<int>(second)});
+        const int count = group.contact(first, second).num_soft_rows();
+        for (row.part = 0; row.part < count; ++row.part) {
+          if (row.part % RestRow::kOfSpot != 0) rows_.push_back(row);
+        }
+      }
+    }
+  }
+}
+
+/// @param soft scratch: rows of the same pair, of the row before
+void RestRows::evaluate_pair(std::size_t k, const std::vector<dynamics::BodyMotion>& motions,
+                             double t, std::vector<loads::SoftRow>& soft, RestValues& out) const {
+  const RestRow& row = rows_[k];
+  const model::NearPair& pair = pairs_[static_cast<std::size_t>(row.pair)];
+  const model::ContactGroup& group = *model_.contact_groups[static_cast<std::size_t>(pair.group)];
+  const auto i = static_cast<std::size_t>(pair.first), j = static_cast<std::size_t>(pair.second);
+  const model::MarkerId &first = group.members[i].marker, &second = group.members[j].marker;
+  const auto first_at = dynamics::evaluate_marker(model_, first, motions);
+  const auto second_at = dynamics::evaluate_marker(model_, second, motions);
+  if (k == 0 || rows_[k - 1].pair != row.pair) {
+    soft.clear();
+    group.contact(i, j).append_tangent({t, first_at.motion, second_at.motion}, soft);
+  }
+  const spatial::PairRow& J = soft[static_cast<std::size_t>(row.part)].J;
+  const auto spot = static_cast<std::size_t>(row.part - row.part % RestRow::kOfSpot);
+  out.presses[k] = soft[spot].stiffness > 0.0 ? 1 : 0;
+  out.rows.push_back(dynamics::system_row(model_, first, first_at, second, second_at, J));
+  out.values.push_back(0.0);
+  out.pushes.emplace_back(J.segment<3>(9).transpose());
 }
 
 void RestRows::evaluate(const std::vector<dynamics::BodyMotion>& motions, double t,
@@ -121,11 +178,19 @@ void RestRows::evaluate(const std::vector<dynamics::BodyMotion>& motions, double
   out.contacts.assign(rows_.size(), {});
   out.presses.assign(rows_.size(), 0);
   std::vector<loads::SoftRow> soft;
+  dynamics::SignalValues signals;
+  const dynamics::Circumstances around =
+      rows_.empty() ? dynamics::Circumstances()
+                    : dynamics::with_signals(model_, motions, t, {}, signals);
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     const RestRow& row = rows_[k];
+    if (row.pair >= 0) {
+      evaluate_pair(k, motions, t, soft, out);
+      continue;
+    }
     const model::Load& load = model_.loads[row.load];
     const dynamics::LoadEnds ends = dynamics::ends_of(model_, load, motions, nullptr);
-    const loads::Sight sight = dynamics::sight_of(model_, row.load, t, {}, ends);
+    const loads::Sight sight = dynamics::sight_of(model_, row.load, t, around, ends);
     spatial::PairRow J = sight.coordinate.J;
     if (load.coordinate < 0) {
       soft.clear();
@@ -246,17 +311,18 @@ RestStands RestRows::of_loads(const RestValues& values, const RestStands& stands
   RestStands out;
   if (rows_.empty()) return out;
   out.resize(model_.loads.size());
-  std::map<std::size_t, Eigen::Vector3d> sums;
+  // Each pair of bodies by itself.
+  std::map<std::pair<std::size_t, int>, Eigen::Vector3d> sums;
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     const std::size_t load = rows_[k].load;
     if (model_.loads[load].coordinate >= 0) {
       out[load] = stands[k];
     } else {
-      sums.try_emplace(load, Eigen::Vector3d::Zero()).first->second +=
+      sums.try_emplace({load, rows_[k].pair}, Eigen::Vector3d::Zero()).first->second +=
           stands[k].force * values.pushes[k];
     }
   }
-  for (const auto& [load, sum] : sums) out[load] = {1, sum.norm()};
+  for (const auto& [of, sum] : sums) out[of.first] = {1, out[of.first].force + sum.norm()};
   return out;
 }
 

@@ -25,6 +25,7 @@ struct RestRow {
   std::size_t load = 0;   ///< index into Model::loads
   int part = 0;           ///< which of the soft rows of a law with several
   int across = -1;        ///< of `along`: the row that presses; −1 of elastic contacts
+  int pair = -1;          ///< of contacts of many bodies: which of their pairs, −1 of all others
   bool is_angle = false;  ///< its coordinate, else a length
   double start = 0;       ///< of `held`: the value that it holds [m] or [rad]
 };
@@ -49,11 +50,16 @@ class RestRows {
   /// @param state as it starts: loads that are off have no rows, frozen friction holds what is here
   RestRows(const model::Model& model, model::RestFriction friction, const model::State& state);
 
+  const model::Model& model() const { return model_; }
   std::size_t size() const { return rows_.size(); }
   /// Whether the model has friction that is left out.
   bool leaves_friction() const { return leaves_friction_; }
   const RestRow& operator[](std::size_t k) const { return rows_[k]; }
   const std::string& name(std::size_t k) const { return model_.loads[rows_[k].load].name; }
+  /// @pre the row is that of a pair of many bodies
+  const model::NearPair& pair(std::size_t k) const {
+    return pairs_[static_cast<std::size_t>(rows_[k].pair)];
+  }
 
   void evaluate(const std::vector<dynamics::BodyMotion>& motions, double t, RestValues& out) const;
   /// Adds Jᵀf.
@@ -92,10 +98,15 @@ class RestRows {
 
  private:
   void add_friction(const model::State& state, std::size_t load);
+  /// All pairs that may touch: which of them do is known at the end.
+  void add_pairs(std::size_t load);
+  void evaluate_pair(std::size_t k, const std::vector<dynamics::BodyMotion>& motions, double t,
+                     std::vector<loads::SoftRow>& soft, RestValues& out) const;
   double length_of(std::size_t k) const { return rows_[k].is_angle ? 1.0 : model_.length; }
 
   const model::Model& model_;
   std::vector<RestRow> rows_;
+  std::vector<model::NearPair> pairs_;
   bool leaves_friction_ = false;
 };
 

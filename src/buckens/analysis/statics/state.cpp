@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "buckens/analysis/statics/tolerances.h"
+#include "buckens/dynamics/contact_groups.h"
 #include "buckens/dynamics/model_scales.h"
+#include "buckens/dynamics/signals.h"
 #include "buckens/dynamics/travel.h"
 
 namespace buckens::analysis {
@@ -49,6 +51,7 @@ void set_static_state(const StaticPoint& point, const RestRows& rest, const Stat
   }
   state.lambda = point.lambda;
   state.memory.at_rest = rest.of_loads(balance.rest, point.rest);
+  dynamics::start_near(rest.model(), dynamics::motions_of(rest.model(), state), state.memory);
   state.history = 0;
   state.lambda_time = state.t;
 }
@@ -100,10 +103,12 @@ double strongest_load(const model::Model& model, const RestRows& rest, const Sta
   for (const body::Body& body : model.bodies) {
     largest = std::max(largest, body.mass * model.gravity.norm());
   }
+  dynamics::SignalValues signals;
+  const dynamics::Circumstances around = dynamics::with_signals(model, motions, t, {}, signals);
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const model::Load& load = model.loads[k];
     const dynamics::LoadEnds ends = dynamics::ends_of(model, load, motions, nullptr);
-    const loads::Action action = dynamics::action_of(model, k, t, {}, ends);
+    const loads::Action action = dynamics::action_of(model, k, t, around, ends);
     const double factor = load.element->is_applied() ? std::abs(point.load_factor) : 1.0;
     largest = std::max(largest, factor * std::abs(action.along_pattern));
     count(action.on_first, factor);
