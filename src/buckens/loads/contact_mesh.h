@@ -65,6 +65,8 @@ class ContactMesh {
   const std::array<Eigen::Vector3d, 3>& corners(std::size_t facet) const {
     return facets_[facet].corner;
   }
+  /// @param index below num_facets()
+  const CurvedFacet& facet(std::size_t index) const { return facets_[index]; }
   const BoxTree& tree() const { return tree_; }
   /// Around the flat triangles.
   const Eigen::AlignedBox3d& box() const { return box_; }

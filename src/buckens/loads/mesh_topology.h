@@ -8,6 +8,13 @@
 
 namespace buckens::loads {
 
+/// Facets that bend less around a corner, or along an edge, are one face [rad].
+inline constexpr double kFlatCorner = 1e-4;
+
+/// Whether unit vectors lie in one plane through the origin: of normals around a point, that no
+/// sharp corner is there.
+bool are_in_plane(const std::vector<Eigen::Vector3d>& normals);
+
 /// How the triangles of a surface hang together.
 struct MeshTopology {
   std::vector<Eigen::Vector3d> points;         ///< one per place [m]

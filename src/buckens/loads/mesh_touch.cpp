@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "buckens/spatial/touch_features.h"
@@ -90,27 +91,29 @@ class SphereAtPatch final : public TouchFinder {
 
 }  // namespace
 
-std::vector<std::vector<Vector3d>> groups_of_corners(const std::vector<Vector3d>& corners,
-                                                     std::size_t most_groups) {
+std::vector<std::vector<int>> far_groups(const std::vector<Vector3d>& points,
+                                         std::size_t most_groups) {
   // In an order that has nothing to do with how the mesh was made; the same in each run.
-  std::vector<Vector3d> order = corners;
+  std::vector<int> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
   std::mt19937 chance(1);
   for (std::size_t k = order.size(); k > 1; --k) std::swap(order[k - 1], order[chance() % k]);
-  std::vector<std::vector<Vector3d>> out(std::min(most_groups, order.size()));
-  for (const Vector3d& x : order) {
+  const auto at = [&](int k) { return points[static_cast<std::size_t>(k)]; };
+  std::vector<std::vector<int>> out(std::min(most_groups, order.size()));
+  for (const int point : order) {
     std::size_t best = 0;
     double furthest = -1.0;
     for (std::size_t g = 0; g < out.size(); ++g) {
       double nearest = HUGE_VAL;
-      for (const Vector3d& member : out[g]) {
-        nearest = std::min(nearest, (member - x).squaredNorm());
+      for (const int member : out[g]) {
+        nearest = std::min(nearest, (at(member) - at(point)).squaredNorm());
         if (nearest <= furthest) break;
       }
       if (nearest <= furthest) continue;
       furthest = nearest;
       best = g;
     }
-    out[best].push_back(x);
+    out[best].push_back(point);
   }
   return out;
 }
@@ -121,8 +124,10 @@ std::vector<std::shared_ptr<const TouchFinder>> plane_touches(const TouchSurface
   const double size = mesh.box().diagonal().norm();
   const std::vector<Vector3d> corners = mesh.sharp_corners();
   const std::size_t most = corners.size() > kMostSingleCorners ? kCornerGroups : corners.size();
-  for (auto& group : groups_of_corners(corners, most)) {
-    out.push_back(std::make_shared<LowestCorner>(plane, std::move(group), size));
+  for (const std::vector<int>& group : far_groups(corners, most)) {
+    std::vector<Vector3d> own;
+    for (const int k : group) own.push_back(corners[static_cast<std::size_t>(k)]);
+    out.push_back(std::make_shared<LowestCorner>(plane, std::move(own), size));
   }
   return out;
 }

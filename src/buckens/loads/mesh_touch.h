@@ -12,11 +12,11 @@ namespace buckens::loads {
 /// Up to so many sharp corners of a mesh are a place each; more are divided into groups.
 inline constexpr std::size_t kMostSingleCorners = 96, kCornerGroups = 24;
 
-/// Corners divided into groups so that those of one group are far from each other: of corners
-/// next to each other that touch at once, or one after the other, each has a place of its own.
-/// Each group begins with corners that are spread over the whole.
-std::vector<std::vector<Eigen::Vector3d>> groups_of_corners(
-    const std::vector<Eigen::Vector3d>& corners, std::size_t most_groups);
+/// Numbers of points divided into groups so that those of one group are far from each other: of
+/// points next to each other that touch at once, or one after the other, each has a place of its
+/// own. Each group begins with points that are spread over the whole.
+std::vector<std::vector<int>> far_groups(const std::vector<Eigen::Vector3d>& points,
+                                         std::size_t most_groups);
 
 /// The corners with which a mesh of M can touch a plane of F: one finder for each, or for each
 /// group of them, which finds the lowest, of those at the same height the first.

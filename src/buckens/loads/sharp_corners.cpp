@@ -3,17 +3,12 @@
 #include <cmath>
 
 #include "buckens/loads/contact_mesh.h"
+#include "buckens/loads/mesh_topology.h"
 
 namespace buckens::loads {
 
 using Eigen::Vector3d;
 
-namespace {
-
-// Facets that bend less around a corner are one face [rad].
-constexpr double kFlatCorner = 1e-4;
-
-/// Whether unit vectors lie in one plane through the origin.
 bool are_in_plane(const std::vector<Vector3d>& normals) {
   Vector3d across = Vector3d::Zero();
   for (const Vector3d& n : normals) {
@@ -25,8 +20,6 @@ bool are_in_plane(const std::vector<Vector3d>& normals) {
   return std::none_of(normals.begin(), normals.end(),
                       [&](const Vector3d& n) { return std::abs(across.dot(n)) > kFlatCorner; });
 }
-
-}  // namespace
 
 std::vector<Vector3d> ContactMesh::sharp_corners() const {
   std::vector<Vector3d> out;

@@ -6,7 +6,7 @@
 
 #include "buckens/spatial/box_separation.h"
 #include "buckens/spatial/rigid_touch.h"
-#include "buckens/spatial/segment_pair.h"
+#include "buckens/spatial/touch_features.h"
 
 namespace buckens::spatial {
 
@@ -94,42 +94,7 @@ void set_point(const Face& face, const Vector3d& x, const MarkerMotion& owner, d
   out.place_rate = owner.v + owner.w.cross(x - owner.p);
 }
 
-/// An edge: its middle, and half of it.
-struct Edge {
-  const MarkerMotion* owner;
-  Vector3d middle, half;
-  Vector3d rate() const { return owner->v + owner->w.cross(middle - owner->p); }
-  Vector3d half_rate() const { return owner->w.cross(half); }
-};
-
-/// Where an edge of the first box crosses one of the second.
-/// @param along about from the first to the second
-void set_crossing(const Edge& first, const Edge& second, const Vector3d& along, TouchPlace& out) {
-  const Vector3d r = second.middle - first.middle, r_rate = second.rate() - first.rate();
-  const auto nearest = NearestOfSegments::of_lines(r, first.half, second.half);
-  const Eigen::Vector2d rates =
-      nearest.rates(r, first.half, second.half, r_rate, first.half_rate(), second.half_rate());
-  Vector3d across = first.half.cross(second.half);
-  Vector3d across_rate =
-      first.half_rate().cross(second.half) + first.half.cross(second.half_rate());
-  if (across.dot(along) < 0.0) {
-    across = -across;
-    across_rate = -across_rate;
-  }
-  const double size = across.norm();
-  out.normal = across / size;
-  out.normal_rate = (across_rate - out.normal.dot(across_rate) * out.normal) / size;
-  out.gap = out.normal.dot(r);
-  const auto place_on = [](const Edge& edge, double at) -> Vector3d {
-    return edge.middle + at * edge.half;
-  };
-  const auto rate_on = [](const Edge& edge, double at, double rate) -> Vector3d {
-    return edge.rate() + at * edge.half_rate() + rate * edge.half;
-  };
-  out.place = 0.5 * (place_on(first, nearest.on_first) + place_on(second, nearest.on_second));
-  out.place_rate = 0.5 * (rate_on(first, nearest.on_first, rates[0]) +
-                          rate_on(second, nearest.on_second, rates[1]));
-}
+using Edge = MovingEdge;
 
 /// Two faces that look at each other.
 class FacePair {

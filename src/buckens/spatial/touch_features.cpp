@@ -64,4 +64,32 @@ void set_segments(const RoundSegment& first, const MarkerMotion& F, const RoundS
   out.place_rate = first_rate + 0.5 * between_rate + beyond * out.normal_rate;
 }
 
+void set_crossing(const MovingEdge& first, const MovingEdge& second, const Vector3d& along,
+                  TouchPlace& out) {
+  const Vector3d r = second.middle - first.middle, r_rate = second.rate() - first.rate();
+  const auto nearest = NearestOfSegments::of_lines(r, first.half, second.half);
+  const Eigen::Vector2d rates =
+      nearest.rates(r, first.half, second.half, r_rate, first.half_rate(), second.half_rate());
+  Vector3d across = first.half.cross(second.half);
+  Vector3d across_rate =
+      first.half_rate().cross(second.half) + first.half.cross(second.half_rate());
+  if (across.dot(along) < 0.0) {
+    across = -across;
+    across_rate = -across_rate;
+  }
+  const double size = across.norm();
+  out.normal = across / size;
+  out.normal_rate = (across_rate - out.normal.dot(across_rate) * out.normal) / size;
+  out.gap = out.normal.dot(r);
+  const auto place_on = [](const MovingEdge& edge, double at) -> Vector3d {
+    return edge.middle + at * edge.half;
+  };
+  const auto rate_on = [](const MovingEdge& edge, double at, double rate) -> Vector3d {
+    return edge.rate() + at * edge.half_rate() + rate * edge.half;
+  };
+  out.place = 0.5 * (place_on(first, nearest.on_first) + place_on(second, nearest.on_second));
+  out.place_rate = 0.5 * (rate_on(first, nearest.on_first, rates[0]) +
+                          rate_on(second, nearest.on_second, rates[1]));
+}
+
 }  // namespace buckens::spatial

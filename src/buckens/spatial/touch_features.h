@@ -37,6 +37,19 @@ void set_sphere_at(const TouchSurface::View& view, const MarkerMotion& other,
 void set_segments(const RoundSegment& first, const MarkerMotion& F, const RoundSegment& second,
                   const MarkerMotion& M, const Eigen::Vector3d& otherwise, TouchPlace& out);
 
+/// An edge in world axes: its middle, and half of it.
+struct MovingEdge {
+  const MarkerMotion* owner;
+  Eigen::Vector3d middle, half;  ///< [m]
+  Eigen::Vector3d rate() const { return owner->v + owner->w.cross(middle - owner->p); }
+  Eigen::Vector3d half_rate() const { return owner->w.cross(half); }
+};
+
+/// Where an edge of the first body crosses one of the second, the gap along what is normal to both.
+/// @param along about from the first to the second, @pre the edges are not parallel
+void set_crossing(const MovingEdge& first, const MovingEdge& second, const Eigen::Vector3d& along,
+                  TouchPlace& out);
+
 /// The second body becomes the first.
 inline void turn_round(TouchPlace& out) {
   out.normal = -out.normal;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "buckens/loads/mesh_touch.h"
+#include "buckens/loads/polyhedron_touch.h"
 #include "buckens/loads/shape_distance.h"
 #include "buckens/spatial/box_touch.h"
 #include "buckens/spatial/capsule_touch.h"
@@ -66,6 +67,10 @@ class TouchList {
     } else if (second_.kind == ShapeKind::cylinder && first_.kind == ShapeKind::plane) {
       add_rim(1.0);
       add_rim(-1.0);
+    } else if (first_.kind == ShapeKind::mesh &&
+               (second_.kind == ShapeKind::mesh || second_.kind == ShapeKind::box)) {
+      add_found(
+          loads::polyhedron_touches(loads::polyhedron_of(first_), loads::polyhedron_of(second_)));
     } else if (second_.kind == ShapeKind::mesh) {
       add_found(loads::plane_touches(loads::touch_surface(first_), *second_.mesh));
     } else if (first_.kind == ShapeKind::mesh) {

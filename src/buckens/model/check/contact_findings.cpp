@@ -86,6 +86,7 @@ bool touch_rigidly(loads::ContactShape::Kind first, loads::ContactShape::Kind se
   using enum loads::ContactShape::Kind;
   if (second == sphere || first == plane) return true;
   if (second == capsule) return true;
+  if (first == mesh && (second == mesh || second == box)) return true;
   return (first == bore && second == cylinder) || (first == box && second == box);
 }
 
@@ -107,7 +108,7 @@ Found rigid_problem(const loads::ContactSpec& spec) {
       "shapes",
       fmt::format("a {} and a {} need a `stiffness`; rigid contacts are those "
                   "of a sphere or a plane with anything, of a capsule with a capsule, box, "
-                  "cylinder or mesh, of a pin in a bore and of two boxes",
+                  "cylinder or mesh, of a pin in a bore, and of boxes and meshes with each other",
                   spec.shapes[0].touches_as(), spec.shapes[1].touches_as())};
 }
 

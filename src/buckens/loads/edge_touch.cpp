@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "buckens/loads/mesh_touch.h"
+#include "buckens/loads/near_boxes.h"
+#include "buckens/loads/polyhedron_touch.h"
+#include "buckens/spatial/segment_pair.h"
+#include "buckens/spatial/touch_features.h"
+
+namespace buckens::loads {
+
+using Eigen::AlignedBox3d;
+using Eigen::Vector3d;
+using spatial::MarkerMotion;
+using spatial::MovingEdge;
+using spatial::NearestOfSegments;
+using spatial::RoundSegment;
+using spatial::TouchPlace;
+
+namespace {
+
+// Of the smaller body, up to which edges are looked for inside the other one.
+constexpr double kDeepestEdge = 0.1;
+// Of the smaller body, by which places that touch nothing have to be nearer than those that may.
+constexpr double kBesideEdge = 3e-5;
+// Of the smaller body, up to which groups of edges are looked for; beyond, the distance of what is
+// around them says enough.
+constexpr double kReachOfGroups = 0.1;
+// Of the way along an edge, by which a crossing further on may be higher.
+constexpr double kFurtherOn = 1e-5;
+// Square of the sine between edges whose crossing has no place.
+constexpr double kAlongEach = 1e-6;
+// Of the depth, by which a crossing keeps off the ends of its edges: those are corners' places.
+constexpr double kOffTheEnd = 0.5;
+
+/// Two edges, and how they look at each other.
+struct Crossing {
+  int own = -1, other = -1;  // −1: none in reach
+  bool touches = false;      // their gap has a sign
+  double sign = 1.0;         // of the normal along (other × own)
+  double gap = HUGE_VAL;
+  double along = 0;  // where on the own edge, from its middle [m]
+};
+
+/// The edges of one body, or some of them, over all edges of another one.
+class EdgesOverEdges {
+ public:
+  /// @param reach up to which they are looked for [m]
+  EdgesOverEdges(std::shared_ptr<const Polyhedron> own, std::vector<int> edges,
+                 std::shared_ptr<const Polyhedron> other, double reach)
+      : own_(std::move(own)),
+        other_(std::move(other)),
+        edges_(std::move(edges)),
+        boxes_(boxes_of(*own_, edges_)),
+        tree_(boxes_, std::vector<std::uint32_t>(edges_.size(), 1U)),
+        other_tree_(other_->edge_boxes(), std::vector<std::uint32_t>(other_->edges().size(), 1U)),
+        reach_(reach) {
+    const double size = std::min(own_->size(), other_->size());
+    deepest_ = kDeepestEdge * size;
+    beside_ = kBesideEdge * size;
+    same_ = std::max(own_->same(), other_->same());
+  }
+
+  /// Towards either end of the own edges. @param pose of the own body in axes of the other one
+  std::array<Crossing, 2> find(const RelativePose& pose) const {
+    return memory_.at(pose, [this](const RelativePose& at) { return search(at); });
+  }
+  /// No more than the distance, where nothing is in reach [m].
+  double beyond(const RelativePose& pose) const {
+    const AlignedBox3d own = seen_from_first(pose, tree_.box());
+    return std::max(reach_, std::sqrt(other_tree_.box().squaredExteriorDistance(own)));
+  }
+  const Polyhedron::Edge& own(int k) const { return own_->edges()[static_cast<std::size_t>(k)]; }
+  const Polyhedron::Edge& other(int k) const {
+    return other_->edges()[static_cast<std::size_t>(k)];
+  }
+
+ private:
+  static std::vector<AlignedBox3d> boxes_of(const Polyhedron& body, const std::vector<int>& edges) {
+    std::vector<AlignedBox3d> out;
+    for (const int k : edges) out.push_back(body.edge_boxes()[static_cast<std::size_t>(k)]);
+    return out;
+  }
+
+  std::array<Crossing, 2> search(const RelativePose& pose) const {
+    std::array<Crossing, 2> best;
+    std::array<double, 2> least = {reach_, reach_};
+    const auto limit = [&] { return std::max({least[0], least[1], deepest_}); };
+    tree_.search(
+        [&](const AlignedBox3d& box) {
+          return distance_to_nearest(other_tree_, other_->edge_boxes(), seen_from_first(pose, box),
+                                     deepest_);
+        },
+        [&](double distance, std::uint32_t /*marks*/) { return distance < limit(); },
+        [&](int k) {
+          const int own_edge = edges_[static_cast<std::size_t>(k)];
+          const AlignedBox3d box = seen_from_first(pose, boxes_[static_cast<std::size_t>(k)]);
+          other_tree_.search(
+              [&](const AlignedBox3d& node) { return node.squaredExteriorDistance(box); },
+              [&](double square, std::uint32_t /*marks*/) { return square < limit() * limit(); },
+              [&](int other_edge) {
+                const Crossing found = cross(pose, own_edge, other_edge);
+                const double order = found.touches ? found.gap : found.gap + beside_;
+                for (std::size_t end = 0; end < 2; ++end) {
+                  const double on = (end == 0 ? kFurtherOn : -kFurtherOn) * found.along;
+                  if (!(order - on < least[end])) continue;
+                  least[end] = order - on;
+                  best[end] = found;
+                }
+              });
+        });
+    return best;
+  }
+
+  Crossing cross(const RelativePose& pose, int own_edge, int other_edge) const {
+    const Polyhedron::Edge &a = own(own_edge), &b = other(other_edge);
+    const Vector3d r = pose.r + pose.R * a.middle - b.middle, half = pose.R * a.half;
+    const auto at = NearestOfSegments::of(r, b.half, half);
+    const Vector3d between = r + at.on_second * half - at.on_first * b.half;
+    Crossing out{own_edge, other_edge, false, 1.0, between.norm(), at.on_second * half.norm()};
+    const Vector3d across = b.half.cross(half);
+    const double size = across.norm();
+    const double lengths = b.half.squaredNorm() * half.squaredNorm();
+    if (!(size * size > kAlongEach * lengths)) return out;
+    Vector3d normal = across / size;
+    const Vector3d own_normal = pose.R.transpose() * normal;
+    if (b.looks_out(normal) && a.looks_out(-own_normal)) {
+      out.sign = 1.0;
+    } else if (b.looks_out(-normal) && a.looks_out(own_normal)) {
+      out.sign = -1.0;
+    } else {
+      return out;
+    }
+    const double gap = out.sign * normal.dot(r);
+    const double off = std::max(same_, -kOffTheEnd * gap);
+    const bool is_between = (1.0 - std::abs(at.on_first)) * b.half.norm() > off &&
+                            (1.0 - std::abs(at.on_second)) * half.norm() > off;
+    if (!is_between || gap < -deepest_) return out;
+    if (gap < -same_ && !overlap(pose, b.middle + at.on_first * b.half,
+                                 pose.r + pose.R * (a.middle + at.on_second * a.half))) {
+      return out;
+    }
+    out.touches = true;
+    out.gap = gap;
+    return out;
+  }
+
+  /// Whether places of both edges are inside the other body. @param x,y in axes of the other one
+  bool overlap(const RelativePose& pose, const Vector3d& on_other, const Vector3d& on_own) const {
+    return other_->holds(on_own) && own_->holds(pose.R.transpose() * (on_other - pose.r));
+  }
+
+  std::shared_ptr<const Polyhedron> own_, other_;
+  std::vector<int> edges_;
+  std::vector<AlignedBox3d> boxes_;
+  BoxTree tree_, other_tree_;
+  double reach_, deepest_ = 0, beside_ = 0, same_ = 0;
+  mutable PoseMemory<std::array<Crossing, 2>> memory_;
+};
+
+/// Of some edges of one body, the lowest crossing with edges of the other, the last of several
+/// towards one end.
+class EdgesAcross final : public spatial::TouchFinder {
+ public:
+  /// @param end 0 or 1, @param is_second the own edges are those of M
+  EdgesAcross(std::shared_ptr<const EdgesOverEdges> edges, std::size_t end, bool is_second)
+      : edges_(std::move(edges)), end_(end), is_second_(is_second) {}
+
+  void look(const MarkerMotion& F, const MarkerMotion& M, TouchPlace& out) const override {
+    const MarkerMotion& other = is_second_ ? F : M;
+    const MarkerMotion& own = is_second_ ? M : F;
+    const RelativePose pose = RelativePose::of(other, own);
+    set_place(edges_->find(pose)[end_], pose, other, own, out);
+    if (!is_second_) turn_round(out);
+  }
+
+ private:
+  void set_place(const Crossing& found, const RelativePose& pose, const MarkerMotion& other,
+                 const MarkerMotion& own, TouchPlace& out) const {
+    if (found.own < 0) {
+      out.gap = edges_->beyond(pose);
+      out.normal = own.R.col(2);
+      out.normal_rate = own.w.cross(out.normal);
+      out.place = own.p;
+      out.place_rate = own.v;
+      return;
+    }
+    const Polyhedron::Edge &a = edges_->own(found.own), &b = edges_->other(found.other);
+    const Vector3d half = own.R * a.half, other_half = other.R * b.half;
+    const Vector3d along = found.sign * other_half.cross(half);
+    if (found.touches) {
+      return set_crossing(MovingEdge{&other, other.p + other.R * b.middle, other_half},
+                          MovingEdge{&own, own.p + own.R * a.middle, half}, along, out);
+    }
+    const double size = along.norm();
+    const Vector3d otherwise = size > 0.0 ? Vector3d(along / size) : Vector3d(own.R.col(2));
+    set_segments(RoundSegment{b.middle, b.half, 0.0}, other, RoundSegment{a.middle, a.half, 0.0},
+                 own, otherwise, out);
+  }
+
+  std::shared_ptr<const EdgesOverEdges> edges_;
+  std::size_t end_;
+  bool is_second_;
+};
+
+}  // namespace
+
+TouchFinders edges_across(const std::shared_ptr<const Polyhedron>& first,
+                          const std::shared_ptr<const Polyhedron>& second) {
+  if (first->edges().empty() || second->edges().empty()) return {};
+  const bool is_second = second->edges().size() <= first->edges().size();
+  const auto& own = is_second ? second : first;
+  const auto& other = is_second ? first : second;
+  std::vector<Vector3d> middles;
+  for (const Polyhedron::Edge& edge : own->edges()) middles.push_back(edge.middle);
+  const bool has_groups = middles.size() > kMostSingleEdges;
+  const double reach =
+      has_groups ? kReachOfGroups * std::min(own->size(), other->size()) : HUGE_VAL;
+  TouchFinders out;
+  for (std::vector<int>& group : far_groups(middles, has_groups ? kEdgeGroups : middles.size())) {
+    const auto edges = std::make_shared<const EdgesOverEdges>(own, std::move(group), other, reach);
+    for (const std::size_t end : {0, 1}) {
+      out.push_back(std::make_shared<EdgesAcross>(edges, end, is_second));
+    }
+  }
+  return out;
+}
+
+}  // namespace buckens::loads

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "buckens/loads/contact_pair.h"
+#include "buckens/loads/polyhedron.h"
+#include "buckens/spatial/rigid_touch.h"
+
+namespace buckens::loads {
+
+/// Up to so many sharp edges of the body that has fewer have places of their own.
+inline constexpr std::size_t kMostSingleEdges = 24, kEdgeGroups = 24;
+
+using TouchFinders = std::vector<std::shared_ptr<const spatial::TouchFinder>>;
+
+/// Where sharp corners of one body touch faces of another: one finder for each, or for each group
+/// of them.
+/// @param is_second the corners are those of M
+TouchFinders corners_on_faces(const std::shared_ptr<const Polyhedron>& faces,
+                              const std::shared_ptr<const Polyhedron>& corners, bool is_second);
+
+/// Where sharp edges of two bodies cross: two finders for each edge of the body that has fewer of
+/// them, or for each group of such edges, one towards either end.
+TouchFinders edges_across(const std::shared_ptr<const Polyhedron>& first,
+                          const std::shared_ptr<const Polyhedron>& second);
+
+/// The surface of a mesh, or the six faces of a box.
+std::shared_ptr<const Polyhedron> polyhedron_of(const ContactShape& shape);
+
+/// All places of two surfaces of triangles.
+TouchFinders polyhedron_touches(const std::shared_ptr<const Polyhedron>& first,
+                                const std::shared_ptr<const Polyhedron>& second);
+
+}  // namespace buckens::loads
