@@ -78,7 +78,7 @@ class CornerOnFaces final : public spatial::TouchFinder {
         },
         [&](int k) {
           const Polyhedron::Sight sight = see(k);
-          const double order = sight.touches ? sight.gap : sight.gap + beside_;
+          const double order = sight.is_across ? sight.gap : sight.gap + beside_;
           if (!(order < least)) return;
           least = order;
           best = {static_cast<std::size_t>(k), sight};
@@ -93,6 +93,7 @@ class CornerOnFaces final : public spatial::TouchFinder {
     const TouchSurface::View view = view_of(found.sight, x);
     const Vector3d rate =
         flat.R.transpose() * (corner.rate - flat.v - flat.w.cross(corner.x - flat.p));
+    out.touches = found.sight.is_across;
     out.gap = view.distance;
     out.normal = flat.R * view.normal;
     out.normal_rate = flat.w.cross(out.normal) + flat.R * (view.curvature * rate);

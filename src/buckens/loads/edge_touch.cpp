@@ -33,8 +33,8 @@ constexpr double kReachOfGroups = 0.1;
 constexpr double kFurtherOn = 1e-5;
 // Square of the sine between edges whose crossing has no place.
 constexpr double kAlongEach = 1e-6;
-// Of the depth, by which a crossing keeps off the ends of its edges: those are corners' places.
-constexpr double kOffTheEnd = 0.5;
+// Of the depth: if the end of an edge is nearer to a crossing and inside, too, it is the place.
+constexpr double kNearTheEnd = 0.5;
 
 /// Two edges, and how they look at each other.
 struct Crossing {
@@ -134,23 +134,34 @@ class EdgesOverEdges {
     } else {
       return out;
     }
-    const double gap = out.sign * normal.dot(r);
-    const double off = std::max(same_, -kOffTheEnd * gap);
-    const bool is_between = (1.0 - std::abs(at.on_first)) * b.half.norm() > off &&
-                            (1.0 - std::abs(at.on_second)) * half.norm() > off;
-    if (!is_between || gap < -deepest_) return out;
-    if (gap < -same_ && !overlap(pose, b.middle + at.on_first * b.half,
-                                 pose.r + pose.R * (a.middle + at.on_second * a.half))) {
-      return out;
-    }
-    out.touches = true;
-    out.gap = gap;
+    out.touches = touch_at(pose, {&b, at.on_first}, {&a, at.on_second}, out.sign * normal.dot(r));
+    if (out.touches) out.gap = out.sign * normal.dot(r);
     return out;
   }
 
-  /// Whether places of both edges are inside the other body. @param x,y in axes of the other one
-  bool overlap(const RelativePose& pose, const Vector3d& on_other, const Vector3d& on_own) const {
-    return other_->holds(on_own) && own_->holds(pose.R.transpose() * (on_other - pose.r));
+  /// A place of an edge, from its middle in halves of it.
+  struct Place {
+    const Polyhedron::Edge* edge;
+    double at;
+    Vector3d x() const { return edge->middle + at * edge->half; }
+    Vector3d end() const { return edge->middle + (at < 0.0 ? -1.0 : 1.0) * edge->half; }
+    double off_the_end() const { return (1.0 - std::abs(at)) * edge->half.norm(); }
+  };
+
+  /// Whether edges that look at each other touch there, or overlap; no ends do, which are corners'
+  /// places.
+  bool touch_at(const RelativePose& pose, const Place& other, const Place& own, double gap) const {
+    if (!(other.off_the_end() > same_) || !(own.off_the_end() > same_)) return false;
+    if (gap >= -same_) return true;
+    if (gap < -deepest_) return false;
+    const auto in_other = [&](const Vector3d& x) { return other_->holds(pose.r + pose.R * x); };
+    const auto in_own = [&](const Vector3d& x) {
+      return own_->holds(pose.R.transpose() * (x - pose.r));
+    };
+    if (!in_other(own.x()) || !in_own(other.x())) return false;
+    const double near = -kNearTheEnd * gap;
+    return !(own.off_the_end() < near && in_other(own.end())) &&
+           !(other.off_the_end() < near && in_own(other.end()));
   }
 
   std::shared_ptr<const Polyhedron> own_, other_;
@@ -180,6 +191,7 @@ class EdgesAcross final : public spatial::TouchFinder {
  private:
   void set_place(const Crossing& found, const RelativePose& pose, const MarkerMotion& other,
                  const MarkerMotion& own, TouchPlace& out) const {
+    out.touches = found.touches;
     if (found.own < 0) {
       out.gap = edges_->beyond(pose);
       out.normal = own.R.col(2);

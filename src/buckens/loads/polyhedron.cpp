@@ -95,7 +95,6 @@ Polyhedron::Sight Polyhedron::see(const Vector3d& x, const Matrix3d& R, const Co
     if (out.is_across) out.gap = over;
     return out;
   }
-  out.touches = false;
   double least = deepest;
   flat_.tree().search(
       [&](const AlignedBox3d& box) { return box.squaredExteriorDistance(x); },
@@ -111,7 +110,7 @@ Polyhedron::Sight Polyhedron::see(const Vector3d& x, const Matrix3d& R, const Co
         const CurvedFacet& face = flat_.facet(static_cast<std::size_t>(facet));
         if (face.nearest(foot).square > same_ * same_) return;
         least = std::abs(over);
-        out = {facet, true, true, over};
+        out = {facet, true, over};
       });
   return out;
 }

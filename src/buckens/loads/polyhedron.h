@@ -27,10 +27,10 @@ class Polyhedron {
   /// What a sharp corner of another solid sees of the surface.
   struct Sight {
     int facet = -1;
-    /// Along the facet's normal; else to its nearest place, whichever side that is seen from.
+    /// Over a face, or come through it: along its normal. Else it is beside, or came in elsewhere:
+    /// to the nearest place of the facet, whichever side that is seen from.
     bool is_across = false;
-    bool touches = true;  ///< false: it is inside, but did not come through a face near there
-    double gap = 0;       ///< negative: inside [m]
+    double gap = 0;  ///< negative: inside [m]
   };
 
   explicit Polyhedron(const ContactMesh& mesh);

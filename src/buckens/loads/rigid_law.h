@@ -16,7 +16,7 @@ class RigidLaw : public ForceElement {
   /// Nothing: the law needs its coordinate, see respond().
   Action evaluate(double t, const spatial::MarkerMotion& first,
                   const spatial::MarkerMotion& second) const final;
-  Action respond(const Sight& sight) const final;
+  Action respond(const Sight& sight) const override;
   int num_soft_rows() const final { return 1; }
   void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const override;
   bool is_rigid() const final { return true; }
@@ -61,7 +61,7 @@ class CoordinateLock final : public RigidLaw {
 
 /// Rigid stops of a joint coordinate: one-sided rows. Regimes: 1 at the lower end, which pushes up;
 /// 2 at the upper end, which pushes down.
-class RigidStop final : public RigidLaw {
+class RigidStop : public RigidLaw {
  public:
   /// Default of the threshold: in lengths of what moves per second, or in rad/s.
   static constexpr double kAtRest = 1e-3;
@@ -79,8 +79,10 @@ class RigidStop final : public RigidLaw {
     return approach > threshold_ ? restitution_ : 0.0;
   }
 
- private:
+ protected:
   RigidRow row(const Sight& sight) const override;
+
+ private:
   double from_, to_, restitution_, threshold_;
 };
 

@@ -18,6 +18,8 @@ struct TouchPlace {
   double gap = 0;                        ///< [m]
   Eigen::Vector3d place_rate;            ///< with which the place moves in space [m/s]
   Eigen::Vector3d normal_rate;           ///< [1/s]
+  /// False: there is nothing to hold on to, whatever the gap; a distance from what is around.
+  bool touches = true;
 
   /// Row of the relative velocity of both bodies at the place along a direction.
   PairRow row(const Eigen::Vector3d& direction, const MarkerMotion& F, const MarkerMotion& M) const;

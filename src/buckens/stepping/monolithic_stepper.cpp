@@ -209,6 +209,7 @@ void MonolithicStepper::evaluate(double t) {
   dynamics::evaluate_constraints(model_, motions_evaluation_, t_e, &memory_, evaluation_);
   dynamics::evaluate_soft_rows(model_, motions_evaluation_, t_e, around(), soft_);
   dynamics::evaluate_forces(model_, motions_evaluation_, t_e, around(), forces_);
+  rigid_.let_go(forces_.rigid);
   dynamics::add_joint_forces(evaluation_, lambda_, forces_);
 }
 

@@ -47,6 +47,13 @@ bool RigidRows::move(const std::vector<loads::RigidRow>& rows,
   return has_moved;
 }
 
+void RigidRows::let_go(const std::vector<loads::RigidRow>& rows) {
+  for (std::size_t k = 0; k < stands_.size(); ++k) {
+    const bool has_gone = rows[k].holds_position && !rows[k].is_closed;
+    if (has_gone && stands_[k].regime != 0) stands_[k] = {};
+  }
+}
+
 bool RigidRows::put(int row, const loads::RowStand& stand) {
   loads::RowStand& own = stands_[static_cast<std::size_t>(row)];
   const bool is_other = own.regime != stand.regime;

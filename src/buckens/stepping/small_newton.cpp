@@ -121,6 +121,7 @@ void SmallNewton::evaluate(std::vector<BodyStep>& bodies, double t, const Vector
   steer(t);
   const double t_e = scheme_.evaluation_time(t);
   dynamics::evaluate_forces(model_, at_evaluation(), t_e, around_, forces_, 1.0, &joints_.laws());
+  rigid_.let_go(forces_.rigid);
   const dynamics::JointSet::Laws with{around_, slopes};
   if (same) {
     joints_.evaluate(end_, t + scheme_.h, around_.memory, residuals_, &lambda, &forces_, &with);

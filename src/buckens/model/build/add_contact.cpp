@@ -12,6 +12,7 @@
 #include "buckens/joints/contact_way.h"
 #include "buckens/loads/contact.h"
 #include "buckens/loads/contact_friction.h"
+#include "buckens/loads/contact_stop.h"
 #include "buckens/loads/elastic_contact.h"
 #include "buckens/loads/rigid_law.h"
 #include "buckens/model/build/contact_shapes.h"
@@ -192,9 +193,8 @@ class ContactBuilder {
       own.shapes = nullptr;  // drawn once
       own.coordinate = add_coordinate(joints::JointCoordinate::gap(
           std::make_shared<joints::ContactWay>(touch, joints::ContactWay::Direction::across)));
-      own.element =
-          std::make_shared<loads::RigidStop>(0.0, HUGE_VAL, spec_.restitution.value_or(0.0),
-                                             spec_.threshold.value_or(rigid_threshold()));
+      own.element = std::make_shared<loads::ContactStop>(
+          touch, spec_.restitution.value_or(0.0), spec_.threshold.value_or(rigid_threshold()));
       behind_.push_back(std::move(own));
       if (spec_.coefficient > 0.0) add_friction(touch);
     }

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/loads/rigid_law.h"
+#include "buckens/spatial/rigid_touch.h"
+
+namespace buckens::loads {
+
+/// The stop of two bodies in one place. Where the place has gone, as a corner that slides over the
+/// border of a face, it lets go at once, whatever its force.
+class ContactStop final : public RigidStop {
+ public:
+  ContactStop(const spatial::RigidTouch& touch, double restitution, double threshold)
+      : RigidStop(0.0, HUGE_VAL, restitution, threshold), touch_(touch) {}
+
+  Action respond(const Sight& sight) const override;
+
+ private:
+  RigidRow row(const Sight& sight) const override;
+  /// Whether it is closed in a place that is none.
+  bool has_gone(const Sight& sight) const;
+
+  spatial::RigidTouch touch_;
+};
+
+}  // namespace buckens::loads

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: Apache-2.0
+// Places of rigid contact between surfaces of triangles: which corners and edges they are, gaps
+// against all pairs of features and against the separation of boxes, rates against differences.
+#include "buckens/loads/polyhedron_touch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "buckens/spatial/box_separation.h"
+#include "buckens/spatial/segment_pair.h"
+#include "buckens/spatial/test/found_rates.h"
+
+namespace buckens::loads {
+namespace {
+
+using Eigen::Vector3d;
+using spatial::MarkerMotion;
+using spatial::TouchPlace;
+using spatial::TriangleList;
+using Solid = std::shared_ptr<const Polyhedron>;
+
+/// A block, its faces divided into n × n rectangles, around a middle; added to others.
+void add_block(const Vector3d& middle, const Vector3d& half, int n, TriangleList& out) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {1.0, -1.0}) {
+      const Vector3d u = half[(axis + 1) % 3] * Vector3d::Unit((axis + 1) % 3);
+      const Vector3d v = side * half[(axis + 2) % 3] * Vector3d::Unit((axis + 2) % 3);
+      const auto at = [&](int i, int j) -> Vector3d {
+        return middle + side * half[axis] * Vector3d::Unit(axis) + (2.0 * i / n - 1.0) * u +
+               (2.0 * j / n - 1.0) * v;
+      };
+      for (int k = 0; k < n * n; ++k) {
+        const int i = k / n, j = k % n, first = static_cast<int>(out.points.size());
+        for (const auto& [x, y] : {std::pair{i, j}, {i + 1, j}, {i + 1, j + 1}, {i, j + 1}}) {
+          out.points.push_back(at(x, y));
+        }
+        out.triangles.push_back({first, first + 1, first + 2});
+        out.triangles.push_back({first, first + 2, first + 3});
+      }
+    }
+  }
+}
+
+Solid block(const Vector3d& half, int n) {
+  TriangleList out;
+  add_block(Vector3d::Zero(), half, n, out);
+  return std::make_shared<const Polyhedron>(out);
+}
+
+/// Two blocks apart: not convex.
+Solid fork(int n) {
+  TriangleList out;
+  add_block({0.15, 0, 0}, {0.05, 0.1, 0.2}, n, out);
+  add_block({-0.15, 0, 0}, {0.05, 0.1, 0.2}, n, out);
+  return std::make_shared<const Polyhedron>(out);
+}
+
+/// A round surface of triangles between circles.
+Solid ball(double radius, int around, int across) {
+  TriangleList out;
+  const auto at = [&](int i, int j) { return (i % around) * (across + 1) + j; };
+  for (int i = 0; i < around; ++i) {
+    for (int j = 0; j <= across; ++j) {
+      const double a = 2 * M_PI * i / around, b = M_PI * j / across;
+      out.points.emplace_back(radius * std::sin(b) * std::cos(a),
+                              radius * std::sin(b) * std::sin(a), -radius * std::cos(b));
+    }
+  }
+  for (int i = 0; i < around; ++i) {
+    for (int j = 0; j < across; ++j) {
+      out.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      out.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return std::make_shared<const Polyhedron>(out);
+}
+
+/// Two markers near each other, in general position.
+struct Placed {
+  test::MarkerPath F, M;
+  Placed(std::mt19937& chance, double apart) {
+    std::uniform_real_distribution<double> any(-1, 1);
+    const auto vector = [&] { return Vector3d(any(chance), any(chance), any(chance)); };
+    for (test::MarkerPath* path : {&F, &M}) {
+      *path = {vector(), vector(), vector(), spatial::exp_rotation(3 * vector()).toRotationMatrix(),
+               vector(), vector()};
+    }
+    M.p = F.p + apart * vector().normalized();
+  }
+};
+
+double least_gap(const TouchFinders& finders, const MarkerMotion& F, const MarkerMotion& M) {
+  double out = HUGE_VAL;
+  for (const auto& finder : finders) {
+    TouchPlace place;
+    finder->look(F, M, place);
+    out = std::min(out, place.gap);
+  }
+  return out;
+}
+
+/// Over all corners and faces, and all pairs of edges. @return negative: a corner is inside
+double distance_of_all(const Polyhedron& first, const Polyhedron& second, const MarkerMotion& F,
+                       const MarkerMotion& M) {
+  double out = HUGE_VAL;
+  for (const auto& [own, other, own_at, other_at] :
+       {std::tuple{&first, &second, &F, &M}, {&second, &first, &M, &F}}) {
+    for (const Polyhedron::Corner& corner : own->corners()) {
+      const Vector3d x = own_at->p + own_at->R * corner.at - other_at->p;
+      out = std::min(out, other->faces().nearest(other_at->R.transpose() * x).distance);
+    }
+  }
+  for (const Polyhedron::Edge& a : first.edges()) {
+    for (const Polyhedron::Edge& b : second.edges()) {
+      const Vector3d r = M.p + M.R * b.middle - F.p - F.R * a.middle;
+      const Vector3d own = F.R * a.half, other = M.R * b.half;
+      const auto at = spatial::NearestOfSegments::of(r, own, other);
+      out = std::min(out, (r + at.on_second * other - at.on_first * own).norm());
+    }
+  }
+  return out;
+}
+
+TEST(PolyhedronTouch, HasTheCornersAndEdgesThatStandOut) {
+  for (const int n : {1, 2, 7}) {
+    const Solid solid = block({0.2, 0.15, 0.1}, n);
+    EXPECT_EQ(solid->corners().size(), 8u);
+    ASSERT_EQ(solid->edges().size(), 12u);
+    double length = 0;
+    for (const Polyhedron::Edge& edge : solid->edges()) {
+      length += 2 * edge.half.norm();
+      // Into both faces, whose normals are at right angles: out is between them, and only there.
+      EXPECT_NEAR(edge.into[0].dot(edge.into[1]), 0, 1e-14);
+      EXPECT_TRUE(edge.looks_out(-(edge.into[0] + edge.into[1]).normalized()));
+      EXPECT_FALSE(edge.looks_out(edge.into[0]));
+      EXPECT_LT(edge.middle.normalized().dot(edge.into[0] + edge.into[1]), 0);
+    }
+    EXPECT_NEAR(length, 4 * (0.4 + 0.3 + 0.2), 1e-13);
+  }
+  // An L: of its 18 edges the one inside the bend touches nothing.
+  TriangleList bend;
+  const std::vector<Eigen::Vector2d> outline = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+  for (const double z : {0.0, 1.0}) {
+    for (const Eigen::Vector2d& x : outline) bend.points.emplace_back(x.x(), x.y(), z);
+  }
+  for (int k = 0; k < 6; ++k) {
+    const int next = (k + 1) % 6;
+    bend.triangles.push_back({k, next, 6 + next});
+    bend.triangles.push_back({k, 6 + next, 6 + k});
+  }
+  for (const auto& [a, b, c] : {std::array{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}) {
+    bend.triangles.push_back({6 + a, 6 + b, 6 + c});
+    bend.triangles.push_back({c, b, a});
+  }
+  EXPECT_EQ(Polyhedron(bend).edges().size(), 17u);
+  EXPECT_EQ(Polyhedron(bend).corners().size(), 12u);
+}
+
+TEST(PolyhedronTouch, TheLeastGapIsTheDistance) {
+  std::mt19937 chance(3);
+  const std::vector<std::pair<Solid, Solid>> pairs = {
+      {block({0.2, 0.15, 0.1}, 2), block({0.1, 0.3, 0.05}, 1)},
+      {fork(1), block({0.05, 0.2, 0.1}, 1)},
+      {block({0.2, 0.15, 0.1}, 1), ball(0.2, 12, 8)}};
+  for (const auto& [first, second] : pairs) {
+    // Only singles say how far what is out of reach is.
+    const TouchFinders finders = polyhedron_touches(first, second);
+    int count = 0;
+    for (int k = 0; k < 200; ++k) {
+      const Placed placed(chance, 0.45);
+      const MarkerMotion F = placed.F.at(0), M = placed.M.at(0);
+      const double all = distance_of_all(*first, *second, F, M);
+      if (all <= 0) continue;
+      ++count;
+      EXPECT_NEAR(least_gap(finders, F, M), all, 1e-13);
+    }
+    EXPECT_GT(count, 50);
+  }
+}
+
+TEST(PolyhedronTouch, BlocksOverlapWhereBoxesDo) {
+  std::mt19937 chance(4);
+  spatial::TouchSurface one, other;
+  one.half = {0.2, 0.15, 0.1};
+  other.half = {0.1, 0.25, 0.12};
+  const TouchFinders finders = polyhedron_touches(block(one.half, 2), block(other.half, 3));
+  int inside = 0, outside = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const Placed placed(chance, 0.3);
+    const MarkerMotion F = placed.F.at(0), M = placed.M.at(0);
+    const auto apart = spatial::BoxSeparation::of(one, F.R, other, M.R, M.p - F.p);
+    const double gap = least_gap(finders, F, M);
+    if (apart.gap > 0) {
+      ++outside;
+      EXPECT_GT(gap, 0);
+    } else if (apart.gap > -2e-3) {
+      // Places are exact: one of them overlaps, and none less than boxes are known to.
+      ++inside;
+      EXPECT_LT(gap, 0);
+      EXPECT_LE(gap, apart.gap + 1e-3 * 0.1 + 1e-12);
+    }
+  }
+  EXPECT_GT(outside, 500);
+  EXPECT_GT(inside, 20);
+}
+
+TEST(PolyhedronTouch, APlateBetweenTinesTouchesNeither) {
+  const Solid first = fork(2), second = block({0.0999, 0.3, 0.15}, 1);
+  MarkerMotion F, M;
+  for (const double y : {0.0, 0.05, 0.2}) {
+    for (const double x : {0.0, 0.00005, -0.00005}) {
+      M.p = {x, y, 0.03};
+      EXPECT_NEAR(least_gap(polyhedron_touches(first, second), F, M), 0.0001 - std::abs(x), 1e-14);
+    }
+  }
+  // And one that is taller than the tines touches their edges.
+  const Solid tall = block({0.0999, 0.05, 0.4}, 1);
+  M.p = {0.00004, 0.03, 0};
+  EXPECT_NEAR(least_gap(polyhedron_touches(first, tall), F, M), 0.00006, 1e-14);
+}
+
+TEST(PolyhedronTouch, FacesThatLieOnEachOtherTouchUpToTheirBorders) {
+  const Solid first = block({0.1, 0.1, 0.1}, 2), second = block({0.1, 0.1, 0.1}, 3);
+  const TouchFinders finders = polyhedron_touches(first, second);
+  MarkerMotion F, M;
+  for (const double x : {0.0, 3e-10, 1e-6, 1e-3, 0.05, 0.1999}) {
+    for (const double depth : {0.0, 1e-12, 1e-4}) {
+      M.p = {x, 0.5 * x, 0.2 - depth};
+      double torque = 0, most = 0;
+      int count = 0;
+      for (const auto& finder : finders) {
+        TouchPlace place;
+        finder->look(F, M, place);
+        EXPECT_GT(place.gap, -depth - 1e-14);
+        if (place.gap > 1e-9 - depth) continue;
+        ++count;
+        // Up, and at the border of the area on all sides.
+        EXPECT_NEAR(place.normal.z(), 1, 1e-12);
+        torque += place.place.x() - 0.5 * x;
+        most = std::max(most, std::abs(place.place.x() - 0.5 * x));
+      }
+      EXPECT_GE(count, 4);
+      EXPECT_NEAR(most, 0.1 - 0.5 * x, 1e-6);
+      EXPECT_LT(std::abs(torque), count * most);
+    }
+  }
+}
+
+TEST(PolyhedronTouch, PlacesMoveAsTheirRatesSay) {
+  std::mt19937 chance(6);
+  const std::vector<std::pair<Solid, Solid>> pairs = {
+      {block({0.2, 0.15, 0.1}, 1), block({0.1, 0.3, 0.05}, 2)},
+      {ball(0.2, 16, 10), block({0.2, 0.15, 0.1}, 1)},
+      {block({0.2, 0.15, 0.1}, 1), ball(0.2, 16, 10)},
+      {ball(0.2, 16, 10), ball(0.25, 20, 12)}};
+  for (const auto& [first, second] : pairs) {
+    const TouchFinders finders = polyhedron_touches(first, second);
+    int count = 0, overlaps = 0;
+    for (int k = 0; k < 40; ++k) {
+      const Placed placed(chance, 0.38);
+      for (const auto& finder : finders) {
+        TouchPlace place;
+        finder->look(placed.F.at(0), placed.M.at(0), place);
+        // Next to an edge or a corner, normals turn too fast for differences.
+        if (std::abs(place.gap) < 0.02) continue;
+        const int is_smooth = test::expect_rates(*finder, placed.F, placed.M);
+        count += is_smooth;
+        overlaps += is_smooth != 0 && place.gap < 0 ? 1 : 0;
+      }
+    }
+    EXPECT_GT(count, 500);
+    EXPECT_GT(overlaps, 5);
+  }
+}
+
+}  // namespace
+}  // namespace buckens::loads
