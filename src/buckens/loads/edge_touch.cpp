@@ -112,6 +112,8 @@ class EdgesOverEdges {
                 }
               });
         });
+    // Two rows in one place would share its load without need.
+    if (best[0].own == best[1].own && best[0].other == best[1].other) best[1].touches = false;
     return best;
   }
 

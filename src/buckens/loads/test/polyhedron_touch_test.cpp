@@ -45,14 +45,14 @@ void add_block(const Vector3d& middle, const Vector3d& half, int n, TriangleList
   }
 }
 
-Solid block(const Vector3d& half, int n) {
+Solid block_of(const Vector3d& half, int n) {
   TriangleList out;
   add_block(Vector3d::Zero(), half, n, out);
   return std::make_shared<const Polyhedron>(out);
 }
 
 /// Two blocks apart: not convex.
-Solid fork(int n) {
+Solid tines(int n) {
   TriangleList out;
   add_block({0.15, 0, 0}, {0.05, 0.1, 0.2}, n, out);
   add_block({-0.15, 0, 0}, {0.05, 0.1, 0.2}, n, out);
@@ -60,7 +60,7 @@ Solid fork(int n) {
 }
 
 /// A round surface of triangles between circles.
-Solid ball(double radius, int around, int across) {
+Solid ball_of(double radius, int around, int across) {
   TriangleList out;
   const auto at = [&](int i, int j) { return (i % around) * (across + 1) + j; };
   for (int i = 0; i < around; ++i) {
@@ -80,9 +80,9 @@ Solid ball(double radius, int around, int across) {
 }
 
 /// Two markers near each other, in general position.
-struct Placed {
+struct PlacedSolids {
   test::MarkerPath F, M;
-  Placed(std::mt19937& chance, double apart) {
+  PlacedSolids(std::mt19937& chance, double apart) {
     std::uniform_real_distribution<double> any(-1, 1);
     const auto vector = [&] { return Vector3d(any(chance), any(chance), any(chance)); };
     for (test::MarkerPath* path : {&F, &M}) {
@@ -93,7 +93,7 @@ struct Placed {
   }
 };
 
-double least_gap(const TouchFinders& finders, const MarkerMotion& F, const MarkerMotion& M) {
+double least_gap_of(const TouchFinders& finders, const MarkerMotion& F, const MarkerMotion& M) {
   double out = HUGE_VAL;
   for (const auto& finder : finders) {
     TouchPlace place;
@@ -127,7 +127,7 @@ double distance_of_all(const Polyhedron& first, const Polyhedron& second, const 
 
 TEST(PolyhedronTouch, HasTheCornersAndEdgesThatStandOut) {
   for (const int n : {1, 2, 7}) {
-    const Solid solid = block({0.2, 0.15, 0.1}, n);
+    const Solid solid = block_of({0.2, 0.15, 0.1}, n);
     EXPECT_EQ(solid->corners().size(), 8u);
     ASSERT_EQ(solid->edges().size(), 12u);
     double length = 0;
@@ -163,20 +163,20 @@ TEST(PolyhedronTouch, HasTheCornersAndEdgesThatStandOut) {
 TEST(PolyhedronTouch, TheLeastGapIsTheDistance) {
   std::mt19937 chance(3);
   const std::vector<std::pair<Solid, Solid>> pairs = {
-      {block({0.2, 0.15, 0.1}, 2), block({0.1, 0.3, 0.05}, 1)},
-      {fork(1), block({0.05, 0.2, 0.1}, 1)},
-      {block({0.2, 0.15, 0.1}, 1), ball(0.2, 12, 8)}};
+      {block_of({0.2, 0.15, 0.1}, 2), block_of({0.1, 0.3, 0.05}, 1)},
+      {tines(1), block_of({0.05, 0.2, 0.1}, 1)},
+      {block_of({0.2, 0.15, 0.1}, 1), ball_of(0.2, 12, 8)}};
   for (const auto& [first, second] : pairs) {
     // Only singles say how far what is out of reach is.
     const TouchFinders finders = polyhedron_touches(first, second);
     int count = 0;
     for (int k = 0; k < 200; ++k) {
-      const Placed placed(chance, 0.45);
+      const PlacedSolids placed(chance, 0.45);
       const MarkerMotion F = placed.F.at(0), M = placed.M.at(0);
       const double all = distance_of_all(*first, *second, F, M);
       if (all <= 0) continue;
       ++count;
-      EXPECT_NEAR(least_gap(finders, F, M), all, 1e-13);
+      EXPECT_NEAR(least_gap_of(finders, F, M), all, 1e-13);
     }
     EXPECT_GT(count, 50);
   }
@@ -187,13 +187,13 @@ TEST(PolyhedronTouch, BlocksOverlapWhereBoxesDo) {
   spatial::TouchSurface one, other;
   one.half = {0.2, 0.15, 0.1};
   other.half = {0.1, 0.25, 0.12};
-  const TouchFinders finders = polyhedron_touches(block(one.half, 2), block(other.half, 3));
+  const TouchFinders finders = polyhedron_touches(block_of(one.half, 2), block_of(other.half, 3));
   int inside = 0, outside = 0;
   for (int k = 0; k < 3000; ++k) {
-    const Placed placed(chance, 0.3);
+    const PlacedSolids placed(chance, 0.3);
     const MarkerMotion F = placed.F.at(0), M = placed.M.at(0);
     const auto apart = spatial::BoxSeparation::of(one, F.R, other, M.R, M.p - F.p);
-    const double gap = least_gap(finders, F, M);
+    const double gap = least_gap_of(finders, F, M);
     if (apart.gap > 0) {
       ++outside;
       EXPECT_GT(gap, 0);
@@ -209,22 +209,23 @@ TEST(PolyhedronTouch, BlocksOverlapWhereBoxesDo) {
 }
 
 TEST(PolyhedronTouch, APlateBetweenTinesTouchesNeither) {
-  const Solid first = fork(2), second = block({0.0999, 0.3, 0.15}, 1);
+  const Solid first = tines(2), second = block_of({0.0999, 0.3, 0.15}, 1);
   MarkerMotion F, M;
   for (const double y : {0.0, 0.05, 0.2}) {
     for (const double x : {0.0, 0.00005, -0.00005}) {
       M.p = {x, y, 0.03};
-      EXPECT_NEAR(least_gap(polyhedron_touches(first, second), F, M), 0.0001 - std::abs(x), 1e-14);
+      EXPECT_NEAR(least_gap_of(polyhedron_touches(first, second), F, M), 0.0001 - std::abs(x),
+                  1e-14);
     }
   }
   // And one that is taller than the tines touches their edges.
-  const Solid tall = block({0.0999, 0.05, 0.4}, 1);
+  const Solid tall = block_of({0.0999, 0.05, 0.4}, 1);
   M.p = {0.00004, 0.03, 0};
-  EXPECT_NEAR(least_gap(polyhedron_touches(first, tall), F, M), 0.00006, 1e-14);
+  EXPECT_NEAR(least_gap_of(polyhedron_touches(first, tall), F, M), 0.00006, 1e-14);
 }
 
 TEST(PolyhedronTouch, FacesThatLieOnEachOtherTouchUpToTheirBorders) {
-  const Solid first = block({0.1, 0.1, 0.1}, 2), second = block({0.1, 0.1, 0.1}, 3);
+  const Solid first = block_of({0.1, 0.1, 0.1}, 2), second = block_of({0.1, 0.1, 0.1}, 3);
   const TouchFinders finders = polyhedron_touches(first, second);
   MarkerMotion F, M;
   for (const double x : {0.0, 3e-10, 1e-6, 1e-3, 0.05, 0.1999}) {
@@ -253,15 +254,15 @@ TEST(PolyhedronTouch, FacesThatLieOnEachOtherTouchUpToTheirBorders) {
 TEST(PolyhedronTouch, PlacesMoveAsTheirRatesSay) {
   std::mt19937 chance(6);
   const std::vector<std::pair<Solid, Solid>> pairs = {
-      {block({0.2, 0.15, 0.1}, 1), block({0.1, 0.3, 0.05}, 2)},
-      {ball(0.2, 16, 10), block({0.2, 0.15, 0.1}, 1)},
-      {block({0.2, 0.15, 0.1}, 1), ball(0.2, 16, 10)},
-      {ball(0.2, 16, 10), ball(0.25, 20, 12)}};
+      {block_of({0.2, 0.15, 0.1}, 1), block_of({0.1, 0.3, 0.05}, 2)},
+      {ball_of(0.2, 16, 10), block_of({0.2, 0.15, 0.1}, 1)},
+      {block_of({0.2, 0.15, 0.1}, 1), ball_of(0.2, 16, 10)},
+      {ball_of(0.2, 16, 10), ball_of(0.25, 20, 12)}};
   for (const auto& [first, second] : pairs) {
     const TouchFinders finders = polyhedron_touches(first, second);
     int count = 0, overlaps = 0;
     for (int k = 0; k < 40; ++k) {
-      const Placed placed(chance, 0.38);
+      const PlacedSolids placed(chance, 0.38);
       for (const auto& finder : finders) {
         TouchPlace place;
         finder->look(placed.F.at(0), placed.M.at(0), place);
