@@ -125,6 +125,23 @@ double distance_of_all(const Polyhedron& first, const Polyhedron& second, const 
   return out;
 }
 
+/// Whether points close to each other on all edges are outside: corners alone may miss an overlap.
+bool are_apart(const Polyhedron& first, const Polyhedron& second, const MarkerMotion& F,
+               const MarkerMotion& M) {
+  constexpr int kPoints = 200;
+  for (const auto& [own, other, own_at, other_at] :
+       {std::tuple{&first, &second, &F, &M}, {&second, &first, &M, &F}}) {
+    for (const Polyhedron::Edge& edge : own->edges()) {
+      for (int k = 0; k <= kPoints; ++k) {
+        const Vector3d at = edge.middle + (2.0 * k / kPoints - 1.0) * edge.half;
+        const Vector3d x = own_at->p + own_at->R * at - other_at->p;
+        if (other->holds(other_at->R.transpose() * x)) return false;
+      }
+    }
+  }
+  return true;
+}
+
 TEST(PolyhedronTouch, HasTheCornersAndEdgesThatStandOut) {
   for (const int n : {1, 2, 7}) {
     const Solid solid = block_of({0.2, 0.15, 0.1}, n);
@@ -174,7 +191,8 @@ TEST(PolyhedronTouch, TheLeastGapIsTheDistance) {
       const PlacedSolids placed(chance, 0.45);
       const MarkerMotion F = placed.F.at(0), M = placed.M.at(0);
       const double all = distance_of_all(*first, *second, F, M);
-      if (all <= 0) continue;
+      // Less than that an edge may pass by between two points.
+      if (all <= 1e-3 || !are_apart(*first, *second, F, M)) continue;
       ++count;
       EXPECT_NEAR(least_gap_of(finders, F, M), all, 1e-13);
     }
@@ -190,7 +208,7 @@ TEST(PolyhedronTouch, BlocksOverlapWhereBoxesDo) {
   const TouchFinders finders = polyhedron_touches(block_of(one.half, 2), block_of(other.half, 3));
   int inside = 0, outside = 0;
   for (int k = 0; k < 3000; ++k) {
-    const PlacedSolids placed(chance, 0.3);
+    const PlacedSolids placed(chance, 0.4);
     const MarkerMotion F = placed.F.at(0), M = placed.M.at(0);
     const auto apart = spatial::BoxSeparation::of(one, F.R, other, M.R, M.p - F.p);
     const double gap = least_gap_of(finders, F, M);
@@ -204,7 +222,7 @@ TEST(PolyhedronTouch, BlocksOverlapWhereBoxesDo) {
       EXPECT_LE(gap, apart.gap + 1e-3 * 0.1 + 1e-12);
     }
   }
-  EXPECT_GT(outside, 500);
+  EXPECT_GT(outside, 300);
   EXPECT_GT(inside, 20);
 }
 
@@ -237,7 +255,7 @@ TEST(PolyhedronTouch, FacesThatLieOnEachOtherTouchUpToTheirBorders) {
         TouchPlace place;
         finder->look(F, M, place);
         EXPECT_GT(place.gap, -depth - 1e-14);
-        if (place.gap > 1e-9 - depth) continue;
+        if (!place.touches || place.gap > 1e-9 - depth) continue;
         ++count;
         // Up, and at the border of the area on all sides.
         EXPECT_NEAR(place.normal.z(), 1, 1e-12);
@@ -249,6 +267,20 @@ TEST(PolyhedronTouch, FacesThatLieOnEachOtherTouchUpToTheirBorders) {
       EXPECT_LT(std::abs(torque), count * most);
     }
   }
+}
+
+/// Whether a finder goes over to another feature within the differences.
+bool jumps(const spatial::TouchFinder& finder, const PlacedSolids& placed) {
+  TouchPlace now, then;
+  finder.look(placed.F.at(0), placed.M.at(0), now);
+  for (const double t : {-4e-4, -2e-4, 2e-4, 4e-4}) {
+    finder.look(placed.F.at(t), placed.M.at(t), then);
+    const bool is_other = then.touches != now.touches || (then.normal - now.normal).norm() > 0.02 ||
+                          (then.place - now.place).norm() > 0.02 ||
+                          (then.normal_rate - now.normal_rate).norm() > 0.2;
+    if (is_other) return true;
+  }
+  return false;
 }
 
 TEST(PolyhedronTouch, PlacesMoveAsTheirRatesSay) {
@@ -266,8 +298,9 @@ TEST(PolyhedronTouch, PlacesMoveAsTheirRatesSay) {
       for (const auto& finder : finders) {
         TouchPlace place;
         finder->look(placed.F.at(0), placed.M.at(0), place);
-        // Next to an edge or a corner, normals turn too fast for differences.
-        if (std::abs(place.gap) < 0.02) continue;
+        // Next to an edge or a corner, normals turn too fast for differences; and where the nearest
+        // place is another one a moment later, there are none.
+        if (std::abs(place.gap) < 0.02 || jumps(*finder, placed)) continue;
         const int is_smooth = test::expect_rates(*finder, placed.F, placed.M);
         count += is_smooth;
         overlaps += is_smooth != 0 && place.gap < 0 ? 1 : 0;
