@@ -123,8 +123,11 @@ def test_a_cube_slides_off_a_cube(sensors, tmp_path, shift):
     mesh = sensors(model(f"{BASE}, {PART}", **start))
     box = sensors(model("{box: [0.2, 0.2, 0.2]}, {box: [0.2, 0.2, 0.2]}", **start))
     assert box["p.z"][-1] < 0.09 and box["w.y"][-1] > 3
-    for name in ("p.x", "p.y", "p.z"):
+    # With sides in line rounding decides which of two corners that slide along a border lets go first: it drifts aside.
+    for name in ("p.x", "p.z") + (("p.y",) if shift else ()):
         assert mesh[name] == pytest.approx(box[name], abs=1e-3), name
+    assert numpy.abs(mesh["p.y"] - shift).max() < 5e-3
+    assert numpy.abs(mesh["balance"]).max() < 5e-3  # of 0.25 J
 
 
 @pytest.mark.parametrize("cells", [1, 4])
@@ -172,7 +175,8 @@ def test_a_peg_goes_into_a_slot(sensors, tmp_path):
     write(tmp_path, part=triangle_meshes.box([0.3, 0.1, 0.2], 3), base=join(*walls, (triangle_meshes.box([0.4, 0.3, 0.1], 2), [0, 0, -0.2])))
     out = sensors(model(f"{BASE}, {PART}", ", restitution: 0.2, static: 0.3", at="0, 0, 0.2", spin="0.5, 0, 0.2", first="ground"))
     assert out["p.z"][0] > 0.19 and out["p.z"][-1] == pytest.approx(-0.05, abs=1e-9)
-    assert numpy.abs(out["p.y"]).max() < 1.1e-3
+    # Tilted by what fits, it leans to one side while its middle is above the slot.
+    assert numpy.abs(out["p.y"]).max() < 2e-3 and numpy.abs(out["p.y"][out["p.z"] < 0]).max() < 1.1e-3
     assert out["c.gap"].min() > -1e-4
     assert max(numpy.abs(out[f"v.{axis}"][-1]) for axis in "xyz") < 1e-9
 

@@ -59,7 +59,8 @@ class EdgesOverEdges {
         other_tree_(other_->edge_boxes(), std::vector<std::uint32_t>(other_->edges().size(), 1U)),
         reach_(reach) {
     const double size = std::min(own_->size(), other_->size());
-    deepest_ = kDeepestEdge * size;
+    // Where edges are short, corners between them are inside sooner than that.
+    deepest_ = std::min({kDeepestEdge * size, longest(*own_), longest(*other_)});
     beside_ = kBesideEdge * size;
     same_ = std::max(own_->same(), other_->same());
   }
@@ -82,6 +83,13 @@ class EdgesOverEdges {
   static std::vector<AlignedBox3d> boxes_of(const Polyhedron& body, const std::vector<int>& edges) {
     std::vector<AlignedBox3d> out;
     for (const int k : edges) out.push_back(body.edge_boxes()[static_cast<std::size_t>(k)]);
+    return out;
+  }
+
+  /// Half the longest edge [m].
+  static double longest(const Polyhedron& body) {
+    double out = 0.0;
+    for (const Polyhedron::Edge& edge : body.edges()) out = std::max(out, edge.half.norm());
     return out;
   }
 
