@@ -152,7 +152,7 @@ output: {{every: 20 ms, sensors: {{p: {{position: drum}}, v: {{velocity: drum}},
 
 @pytest.mark.parametrize(("shapes_and_law", "words"), [
     (f"{BLOCK}], exponent: 1.5, stiffness: 1e6", ["a mesh and a mesh touch with an area", "remove `exponent`"]),
-    (f"{BLOCK}]", ["a mesh and a mesh need a `stiffness`"]),
+    ("{cylinder: {radius: 50 mm, length: 0.1}}]", ["a mesh and a cylinder need a `stiffness`"]),
     ("{stl: {file: block.stl, unit: 1 m, spacing: 1 um}}], stiffness: 1e6", ["block.stl", "`spacing` of 1e-06 m over 0.24 m²", "greater"]),
     ("{stl: {file: block.stl, unit: 1 m, spacing: -1 mm}}], stiffness: 1e6", ["spacing", "positive"]),
 ])
