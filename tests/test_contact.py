@@ -377,7 +377,7 @@ PLANE = "shapes: [{plane: {}}, {sphere: 0.1}]"
     (BALL, "shapes: [{plane: {}}, {plane: {}}]", ["a plane and a plane cannot touch", "plane–sphere"]),
     (BALL, "shapes: [{bore: 50 mm}, {capsule: {radius: 10 mm, length: 0.1}}], stiffness: 1e5", ["a bore and a capsule cannot touch", "box–cylinder"]),
     (BALL, "shapes: [{box: [1, 1, 0.1]}, {cylinder: {radius: 10 mm, length: 0.1}}], stiffness: 1e5, exponent: 1.5", ["a box and a cylinder share a volume", "remove `exponent`"]),
-    (BALL, "shapes: [{box: [1, 1, 0.1]}, {cylinder: {radius: 10 mm, length: 0.1}}]", ["a box and a cylinder need a `stiffness`"]),
+    (BALL, "shapes: [{box: [1, 1, 0.1]}, {cylinder: {radius: 10 mm, length: 0.1}}], exponent: 1.5", ["without `stiffness` or `modulus` the contact is rigid"]),
     (BALL, "shapes: [{socket: 5 mm}, {sphere: 0.1}]", ["0.1 m does not fit into the socket of 0.005 m"]),
     (BALL, "shapes: [{plane: [0, 0, 0]}, {sphere: 0.1}]", ["a normal cannot be [0, 0, 0]"]),
     (BALL, PLANE + ", damping: 3", ["without `stiffness` or `modulus` the contact is rigid"]),

@@ -9,6 +9,7 @@
 #include "buckens/loads/shape_distance.h"
 #include "buckens/spatial/box_touch.h"
 #include "buckens/spatial/capsule_touch.h"
+#include "buckens/spatial/cylinder_touch.h"
 
 namespace buckens::model {
 
@@ -71,6 +72,12 @@ class TouchList {
                (second_.kind == ShapeKind::mesh || second_.kind == ShapeKind::box)) {
       add_found(
           loads::polyhedron_touches(loads::polyhedron_of(first_), loads::polyhedron_of(second_)));
+    } else if (second_.kind == ShapeKind::cylinder && first_.kind == ShapeKind::box) {
+      add_found(
+          spatial::cylinder_over_box(loads::touch_surface(first_), loads::touch_surface(second_)));
+    } else if (second_.kind == ShapeKind::cylinder && first_.kind == ShapeKind::cylinder) {
+      add_found(spatial::cylinder_over_cylinder(loads::touch_surface(first_),
+                                                loads::touch_surface(second_)));
     } else if (second_.kind == ShapeKind::mesh) {
       add_found(loads::plane_touches(loads::touch_surface(first_), *second_.mesh));
     } else if (first_.kind == ShapeKind::mesh) {

@@ -87,6 +87,7 @@ bool touch_rigidly(loads::ContactShape::Kind first, loads::ContactShape::Kind se
   if (second == sphere || first == plane) return true;
   if (second == capsule) return true;
   if (first == mesh && (second == mesh || second == box)) return true;
+  if (second == cylinder && (first == box || first == cylinder)) return true;
   return (first == bore && second == cylinder) || (first == box && second == box);
 }
 
@@ -108,7 +109,8 @@ Found rigid_problem(const loads::ContactSpec& spec) {
       "shapes",
       fmt::format("a {} and a {} need a `stiffness`; rigid contacts are those "
                   "of a sphere or a plane with anything, of a capsule with a capsule, box, "
-                  "cylinder or mesh, of a pin in a bore, and of boxes and meshes with each other",
+                  "cylinder or mesh, of a cylinder with a box or cylinder, of a pin in a bore, and "
+                  "of boxes and meshes with each other",
                   spec.shapes[0].touches_as(), spec.shapes[1].touches_as())};
 }
 
