@@ -51,7 +51,7 @@ ContactFriction::Slip ContactFriction::slip(const Sight& sight) const {
 RigidRow ContactFriction::row(const Sight& sight) const {
   RigidRow out;
   if (sight.stand.regime != 0 && !touch_.look(sight.first, sight.second).touches) {
-    out.holds_position = true;  // and is not closed: lets go with the force across, at once
+    out.has_gone = true;
     return out;
   }
   out.next = sight.stand;

@@ -17,7 +17,7 @@ Action ContactStop::respond(const Sight& sight) const {
 RigidRow ContactStop::row(const Sight& sight) const {
   if (!has_gone(sight)) return RigidStop::row(sight);
   RigidRow out;
-  out.holds_position = true;
+  out.has_gone = true;
   return out;
 }
 

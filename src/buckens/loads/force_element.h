@@ -20,6 +20,7 @@ struct RowStand {
 struct RigidRow {
   bool is_closed = false;
   bool holds_position = false;  ///< otherwise its rate only
+  bool has_gone = false;        ///< opens at once: there is nothing to hold on to any more
   double gap = 0;               ///< of the position, to be closed [m] or [rad]
   double slip = 0;              ///< of the rate, to be closed [m/s] or [rad/s]
   double given = 0;             ///< force of a row that is not closed [N] or [N m]

@@ -49,8 +49,7 @@ bool RigidRows::move(const std::vector<loads::RigidRow>& rows,
 
 void RigidRows::let_go(const std::vector<loads::RigidRow>& rows) {
   for (std::size_t k = 0; k < stands_.size(); ++k) {
-    const bool has_gone = rows[k].holds_position && !rows[k].is_closed;
-    if (has_gone && stands_[k].regime != 0) stands_[k] = {};
+    if (rows[k].has_gone) stands_[k] = {};
   }
 }
 
