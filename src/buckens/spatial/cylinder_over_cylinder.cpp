@@ -14,6 +14,22 @@ namespace {
 
 using CylinderFinders = std::vector<std::shared_ptr<const TouchFinder>>;
 
+// How many times faster than the bodies a place may be to be followed, and the speed of bodies that
+// hardly move, in sizes per second.
+constexpr double kRaces = 20.0, kSlowest = 1.0;
+
+/// Whether a place runs along both bodies faster than steps can follow, as where sides come to lie
+/// along each other. It strikes, but does not hold: a closed row would ask throughout the step for
+/// the acceleration that belongs to the place for an instant.
+bool races(const MarkerMotion& F, const MarkerMotion& M, double size, const TouchPlace& place) {
+  const auto speed_over = [&](const MarkerMotion& body) {
+    return (place.place_rate - body.v - body.w.cross(place.place - body.p)).norm();
+  };
+  const double speed = std::min(speed_over(F), speed_over(M));
+  const double motion = place.velocity(F, M).norm() + size * (M.w - F.w).norm();
+  return speed > kRaces * std::max(motion, size * kSlowest);
+}
+
 /// Where both sides cross; beyond an end of either, its rim on the side of the other.
 void set_sides(const TouchSurface& first, const MarkerMotion& F, const TouchSurface& second,
                const MarkerMotion& M, TouchPlace& out) {
@@ -40,6 +56,7 @@ void set_sides(const TouchSurface& first, const MarkerMotion& F, const TouchSurf
   }
   set_segments({Vector3d::Zero(), own, first.radius}, F, {Vector3d::Zero(), other, second.radius},
                M, F.R * first.axis.unitOrthogonal(), out);
+  if (races(F, M, std::min(first.radius, second.radius), out)) out.touches = false;
 }
 
 /// What a cylinder of M touches another one with: its rims, and points of its ends.

@@ -31,6 +31,12 @@ constexpr double kPressed = 0.5;
 constexpr double kStopped = 1e-9;
 // A gap at the start of the step that is no more than this share of what it ends with is none.
 constexpr double kOnTheEnd = 1e-6;
+// A rate at the instant of the impact that differs from that at the end of the step by more than
+// this share is that of another place.
+constexpr double kSamePlace = 0.1;
+// Beyond both rates, and their difference, by this share of the larger one the mean rate of a step
+// cannot be.
+constexpr double kOtherRate = 0.5;
 
 /// Part of a step after which the cubic through gaps and rates at both ends goes below zero for
 /// good, 0 … 1.
@@ -62,6 +68,16 @@ double rate_at(double s, double gap_start, double rate_start, double gap_end, do
   const double r = 1.0 - s;
   return 6.0 * s * r * (gap_end - gap_start) / h + r * (1.0 - 3.0 * s) * rate_start +
          s * (3.0 * s - 2.0) * rate_end;
+}
+
+/// Whether the gap has changed over the step by clearly other than its rates allow: then its place
+/// at the start is another one than at the end, as where an edge takes over from a face.
+bool is_elsewhere(double gap_start, double rate_start, double gap_end, double rate_end, double h) {
+  const double mean = (gap_end - gap_start) / h;
+  const double most = std::max(std::abs(rate_start), std::abs(rate_end));
+  const double apart = std::abs(rate_end - rate_start) + kOtherRate * most;
+  return mean < std::min(rate_start, rate_end) - apart ||
+         mean > std::max(rate_start, rate_end) + apart;
 }
 
 double rate_of(const dynamics::SystemRow& row, const std::vector<dynamics::BodyMotion>& motions) {
@@ -200,11 +216,18 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
   }
   const std::vector<dynamics::BodyMotion> then = at_impact(motions);
   condense(then, bodies, rows_in_use, around.memory, t);
+  const double most = std::abs(strongest_touch().rate);
   for (Touch& touch : touches_) {
     set_row(laws_[touch.law].load, touch.sign, then, around.memory, touch);
+    const double rate = rate_of(touch.row, then);
+    touch.is_elsewhere = std::abs(rate - touch.rate) > kSamePlace * std::max(most, std::abs(rate));
+    if (touch.is_elsewhere)
+      set_row(laws_[touch.law].load, touch.sign, motions, around.memory, touch);
     answers_to_.answer(touch);
   }
-  for (std::size_t k = 0; k < touches_.size(); ++k) add_slips(k, then, around.memory);
+  for (std::size_t k = 0; k < touches_.size(); ++k) {
+    add_slips(k, touches_[k].is_elsewhere ? motions : then, around.memory);
+  }
   try {
     const Vector P = solve();
     sum_up(P);
@@ -342,9 +365,14 @@ void Impacts::set_row(std::size_t index, double sign,
 void Impacts::set_approach(Touch& touch, const loads::RigidLaw& law,
                            const loads::CoordinateMotion& start, const loads::CoordinateMotion& end,
                            double sign, double gap) const {
-  const double gap_start = gap - sign * end.change;
-  const double rate_start = sign * start.rate;
   const double rate_end = sign * end.rate;
+  double gap_start = gap - sign * end.change;
+  double rate_start = sign * start.rate;
+  // Of another place than at the end: it comes as fast as it is there.
+  if (is_elsewhere(gap_start, rate_start, gap, rate_end, scheme_.h)) {
+    gap_start = gap - scheme_.h * rate_end;
+    rate_start = rate_end;
+  }
   const double s = instant_of(gap_start, rate_start, gap, rate_end, scheme_.h);
   touch.approach = std::max(0.0, -rate_at(s, gap_start, rate_start, gap, rate_end, scheme_.h));
   touch.rest = touch.since = (1.0 - s) * scheme_.h;

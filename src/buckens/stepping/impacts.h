@@ -95,8 +95,11 @@ class Impacts {
     double lost_share = 1;    ///< of the energy of `approach`, that the impact itself had
     bool stays = false;       ///< is not left again
     bool is_of_step = false;  ///< its impulse acts throughout the step, as meshes need it
-    double rate = 0;          ///< away from the end, at the end of the step
-    double sign = 1;          ///< of the coordinate, away from the end
+    /// At the impact its row is that of another place, to which the rate asked for does not belong:
+    /// the one at the end of the step acts.
+    bool is_elsewhere = false;
+    double rate = 0;  ///< away from the end, at the end of the step
+    double sign = 1;  ///< of the coordinate, away from the end
   };
   /// Slip of a stop that is reached, along one direction.
   struct Slip : Push {
