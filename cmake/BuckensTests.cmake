@@ -73,7 +73,8 @@ set(BUCKENS_LONG_TESTS
     attach 24 bad_models 16 belts 12 body_loads 20 contact 10 contacts 9 continue 54 curves 11 damaged_results 60
     docs_commands 44 doubtful_models 22 elastic_gear 10 error 9 example_warnings 60 examples 16 kill 90 mpi 67 packages 34
     places 23 python 5 python_arrays 5 python_examples 33 python_memory 5 python_mistakes 5 python_package 20
-    python_results 5 python_signals 5 python_verbs 12 recycled_solves 21 run 26 save_state 90 shards 20 solver 36 step_parts 130
+    python_results 5 python_signals 5 python_verbs 12 recycled_solves 21
+    rigid_cylinder_contact 75 rigid_mesh_pairs 60 run 26 save_state 90 shards 20 solver 36 step_parts 130
     study_dask 27 study_runs 34 study_samples 5)
 # Others share a process: to start Python with pytest and NumPy takes longer than most of them.
 set(BUCKENS_FILES_PER_PROCESS 6)
