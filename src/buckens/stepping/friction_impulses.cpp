@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "buckens/stepping/complementarity.h"
 #include "buckens/stepping/cone_impulse.h"
 #include "buckens/stepping/cone_newton.h"
-#include "buckens/stepping/impacts.h"
 #include "buckens/stepping/step_failure.h"
 
 namespace buckens::stepping {

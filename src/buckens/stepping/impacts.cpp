@@ -20,9 +20,6 @@ using linalg::Vector;
 
 namespace {
 
-// Added to what stops answer, as a share of the largest answer: those that hold the same share the
-// push.
-constexpr double kNoAnswer = 1e-12;
 constexpr int kBisections = 60;
 // What comes with less than this share of the energy that it has at the end of the step does not
 // strike: it is pressed there from the beginning.
@@ -90,49 +87,6 @@ double rate_of(const dynamics::SystemRow& row, const std::vector<dynamics::BodyM
 }
 
 }  // namespace
-
-Vector solve_complementarity(const Matrix& D, const Vector& b) {
-  const auto n = static_cast<int>(b.size());
-  Vector P = Vector::Zero(n);
-  const double least = kNoAnswer * D.diagonal().maxCoeff();
-  std::vector<char> is_active(static_cast<std::size_t>(n));
-  for (int i = 0; i < n; ++i) is_active[static_cast<std::size_t>(i)] = b[i] > 0.0;
-  for (int round = 0; round < 50 * n; ++round) {
-    std::vector<int> active;
-    for (int i = 0; i < n; ++i) {
-      if (is_active[static_cast<std::size_t>(i)]) active.push_back(i);
-    }
-    P.setZero();
-    if (!active.empty()) {
-      const Matrix A = D(active, active);
-      const Vector asked = b(active);
-      const auto factor = (A + least * Matrix::Identity(A.rows(), A.rows())).ldlt();
-      Vector part = factor.solve(asked);
-      part += factor.solve(asked - A * part);  // what `least` has taken
-      P(active) = part;
-    }
-    int worst = -1;
-    for (const int i : active) {
-      if (P[i] < 0.0 && (worst < 0 || P[i] < P[worst])) worst = i;
-    }
-    if (worst >= 0) {
-      is_active[static_cast<std::size_t>(worst)] = 0;
-      continue;
-    }
-    const Vector open = D * P - b;
-    const double rounding = 1e-12 * (b.cwiseAbs().maxCoeff() + (D * P).cwiseAbs().maxCoeff());
-    for (int i = 0; i < n; ++i) {
-      if (is_active[static_cast<std::size_t>(i)] || open[i] >= -rounding) continue;
-      if (worst < 0 || open[i] < open[worst]) worst = i;
-    }
-    if (worst < 0) return P;
-    is_active[static_cast<std::size_t>(worst)] = 1;
-  }
-  throw StepFailure(fmt::format(
-      "no impulses satisfy all {} rigid stops that are struck at once; give one of them "
-      "a `stiffness`",
-      n));
-}
 
 Impacts::Impacts(const model::Model& model, const Scheme& scheme,
                  std::vector<const BodyAnswer*> answers)

@@ -171,9 +171,4 @@ class Impacts {
   int count_ = 0;
 };
 
-/// Solves the linear complementarity problem  D P − b = w,  P ≥ 0,  w ≥ 0,  Pᵀw = 0  with D
-/// positive semidefinite, by an active set. Meant for tens of unknowns.
-/// @throws StepFailure if none is found within 50 changes of the set per unknown
-linalg::Vector solve_complementarity(const linalg::Matrix& D, const linalg::Vector& b);
-
 }  // namespace buckens::stepping

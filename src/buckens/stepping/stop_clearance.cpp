@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "buckens/stepping/impacts.h"
+#include "buckens/stepping/complementarity.h"
 
 namespace buckens::stepping {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/stepping/impacts.h"
+#include "buckens/stepping/complementarity.h"
 
 #include <random>
 
