@@ -264,3 +264,26 @@ output: {sensors: {held: {energy: {kind: springs, of: soft}}WORK}}
     buckens("static", "model.yaml", "-o", "out").must(0)
     last = (tmp_path / "out" / "sensors.csv").read_text().strip().splitlines()[-1].split(",")
     assert float(last[-1]) == pytest.approx(0.5 * 25 / 100, rel=1e-9)
+
+
+def test_a_sample_at_the_end_of_a_blow_acts_from_there_on(sensors):
+    """What is sampled at the end of the step in which something strikes is no force of that step: not of its rest after the blow, nor in the account."""
+    out = sensors("""
+buckens: 1
+bodies: {block: {rigid: {mass: 2 kg, inertia: [1, 1, 1]}}}
+joints: {rail: {prismatic: {between: [ground, block], axis: [1, 0, 0]}}}
+signals: {u: {sample-hold: {input: "-10 - 1000*(t > 0.05)", sample: 100 ms}}}
+loads:
+  push: {slide-motor: {joint: rail, force: u}}
+  stop: {slide-stop: {joint: rail, from: -0.224, restitution: 0.8}}
+initial: {joints: {rail: {velocity: -2 m/s}}}
+simulation: {duration: 0.102 s, step: 1 ms}
+output: {every: 1 ms, sensors: {x: {joint-coordinate: rail}, balance: {energy: balance}}}
+""")
+    # With 10 N on 2 kg from rest at 2 m/s to the stop, 0.4 ms before the sample; from there on with 1010 N.
+    struck = math.sqrt(2**2 + 2 * 5 * 0.224)
+    hit = (struck - 2) / 5
+    assert 0.0995 < hit < 0.0997
+    speed = 0.8 * struck - 5 * (0.1 - hit)
+    assert out["x.rate"][100] == pytest.approx(speed, abs=1e-12)
+    assert numpy.abs(out["balance"][:101]).max() < 1e-12

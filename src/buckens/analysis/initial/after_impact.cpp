@@ -104,6 +104,16 @@ class Impulses {
   std::vector<double> gaps_, rates_, give_;
 };
 
+/// Gives sampled blocks the states that they had before the samples at the end of a step.
+void undo_samples(const model::Model& model, const model::State& before, linalg::Vector& blocks) {
+  for (const model::Signal& signal : model.signals.all) {
+    if (!signal.is_sampled() && !(signal.block && signal.block->samples_each_step())) continue;
+    const int count = signal.block->num_states();
+    blocks.segment(signal.first_state, count) =
+        before.memory.blocks.segment(signal.first_state, count);
+  }
+}
+
 }  // namespace
 
 void close_rates(const model::Model& model, const std::vector<int>& rows_in_use,
@@ -138,13 +148,15 @@ void close_gaps(const model::Model& model, const std::vector<int>& rows_in_use,
 }
 
 void settle_after_impact(const model::Model& model, const dynamics::MassMetric& metric,
-                         const std::vector<int>& rows_in_use, double rest, model::State& state) {
+                         const std::vector<int>& rows_in_use, const model::State& before,
+                         double rest, model::State& state) {
   const bool is_rigid = std::none_of(model.bodies.begin(), model.bodies.end(),
                                      [](const body::Body& body) { return body.is_flexible(); });
-  std::vector<model::BodyState> smooth;
-  if (is_rigid && rest > 0.0) smooth = state.bodies;
+  if (!is_rigid || !(rest > 0.0)) return settle_rigid_rows(model, metric, rows_in_use, state);
+  const std::vector<model::BodyState> smooth = state.bodies;
+  const linalg::Vector blocks = state.memory.blocks;
+  undo_samples(model, before, state.memory.blocks);
   settle_rigid_rows(model, metric, rows_in_use, state);
-  if (smooth.empty()) return;
   for (std::size_t b = 0; b < smooth.size(); ++b) {
     model::BodyState& s = state.bodies[b];
     const Eigen::Vector3d dw = rest * (s.w_dot - smooth[b].w_dot);
@@ -155,6 +167,7 @@ void settle_after_impact(const model::Model& model, const dynamics::MassMetric& 
     s.frame.X_WB.q = (s.frame.X_WB.q * spatial::exp_rotation(0.5 * rest * dw)).normalized();
   }
   close_rates(model, rows_in_use, nullptr, state);
+  state.memory.blocks = blocks;
   settle_rigid_rows(model, metric, rows_in_use, state);
 }
 

@@ -29,9 +29,11 @@ void close_gaps(const model::Model& model, const std::vector<int>& rows_in_use,
 /// motion after it differ, since joints carry other forces at other velocities; where all bodies
 /// are rigid, the rest of the step is given the difference. Meshes are left as they are: their
 /// accelerations would bring in vibrations that the step does not resolve.
+/// @param before the step, whose samples hold until its end
 /// @param rest time between impact and end of the step [s]
 /// @throws NumericalError as settle_rigid_rows()
 void settle_after_impact(const model::Model& model, const dynamics::MassMetric& metric,
-                         const std::vector<int>& rows_in_use, double rest, model::State& state);
+                         const std::vector<int>& rows_in_use, const model::State& before,
+                         double rest, model::State& state);
 
 }  // namespace buckens::analysis

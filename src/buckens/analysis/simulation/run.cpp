@@ -334,7 +334,7 @@ stepping::StepReport SimulationRun::take_step(const model::State& before, model:
     shafts_->check(before, after);
     // The step closed velocities with the shapes of quasi-static bodies at its start.
     if (has_quasi_static_) project_velocities(built_.model, *metric_, after);
-    if (report.must_settle) settle(after, report.impact_rest);
+    if (report.must_settle) settle(before, after, report.impact_rest);
     return report;
   } catch (const NumericalError&) {
     after = before;
@@ -356,8 +356,8 @@ bool SimulationRun::holds_action(const model::State& from, const model::State& t
 }
 
 /// Accelerations that have jumped are found anew, and what foretells the motion begins here.
-void SimulationRun::settle(model::State& state, double rest) {
-  settle_after_impact(built_.model, *metric_, march_->stepper().rows_in_use(), rest, state);
+void SimulationRun::settle(const model::State& before, model::State& state, double rest) {
+  settle_after_impact(built_.model, *metric_, march_->stepper().rows_in_use(), before, rest, state);
   state.history = 0;
   march_->restart(state);
 }

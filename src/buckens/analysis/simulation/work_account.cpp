@@ -143,15 +143,19 @@ long WorkAccount::num_products() const {
   return sum;
 }
 
+const std::vector<double>* WorkAccount::unsampled(const model::State& before,
+                                                  const model::State& state) {
+  if (!has_samples_) return nullptr;
+  set_motions(model_, state, motions_);
+  dynamics::Circumstances around = dynamics::circumstances_of(before);
+  around.lambda = &state.lambda;
+  dynamics::evaluate_signals(model_, motions_, state.t, around, unsampled_);
+  return &unsampled_.values;
+}
+
 void WorkAccount::add(const model::State& state, const model::State* before) {
-  const bool may_jump = has_samples_ && before != nullptr;
-  if (may_jump) {
-    set_motions(model_, state, motions_);
-    dynamics::Circumstances around = dynamics::circumstances_of(*before);
-    around.lambda = &state.lambda;
-    dynamics::evaluate_signals(model_, motions_, state.t, around, unsampled_);
-  }
-  find_powers(state, now_, may_jump ? &unsampled_.values : nullptr);
+  const std::vector<double>* signals = before != nullptr ? unsampled(*before, state) : nullptr;
+  find_powers(state, now_, signals);
   Powers mean;
   mean.active = 0.5 * (before_.active + now_.active);
   mean.damping = 0.5 * (before_.damping + now_.damping);
@@ -160,7 +164,7 @@ void WorkAccount::add(const model::State& state, const model::State* before) {
   add_halves(forces_.of_loads, &dynamics::LoadPower::lost, means_);
   add_halves(forces_.of_loads, &dynamics::LoadPower::rubbed, means_);
   add_step(state, mean, nullptr, RatesAtEnd::are_smooth);
-  if (may_jump) take_inputs(state);
+  if (signals != nullptr) take_inputs(state);
 }
 
 void WorkAccount::add_impacts(const model::State& before, const model::State& state,
@@ -181,14 +185,16 @@ void WorkAccount::add_impacts(const model::State& before, const model::State& st
   for (std::size_t k = 0; k < means_.size(); ++k) {
     means_[k].supplied = forces_.of_loads[k].supplied;
   }
-  mean.active = 0.5 * (mean.active + powers_at(state, last).active);
+  const std::vector<double>* signals = unsampled(before, state);
+  mean.active = 0.5 * (mean.active + powers_at(state, last, signals).active);
   add_halves(forces_.of_loads, &dynamics::LoadPower::supplied, means_);
   // What closed rows hold must be seen at rest.
-  find_powers(state, now_);
+  find_powers(state, now_, signals);
   add_halves(forces_.of_loads, &dynamics::LoadPower::lost, means_);
   add_halves(forces_.of_loads, &dynamics::LoadPower::rubbed, means_);
   mean.damping = 0.5 * (before_.damping + now_.damping - landed(state));
   add_step(state, mean, &impacts, RatesAtEnd::have_jumped);
+  if (signals != nullptr) take_inputs(state);
 }
 
 void WorkAccount::add_step(const model::State& state, const Powers& loads,

@@ -76,6 +76,9 @@ class WorkAccount {
     double damping = 0;  ///< of dampers [W]
     linalg::Vector g_t;  ///< ∂g/∂t of the joints
   };
+  /// The values of signals at the end of a step before the samples of that instant are taken; null
+  /// where nothing is sampled. Valid until the next call.
+  const std::vector<double>* unsampled(const model::State& before, const model::State& state);
   /// Leaves the forces at the state in forces_, and powers of loads with them.
   /// @param signals null, or their values in place of those of the state
   void find_powers(const model::State& state, Powers& out,
