@@ -35,15 +35,6 @@ def write(tmp_path, mesh):
     triangle_meshes.write_stl(tmp_path / "part.stl", *mesh, text=True)
 
 
-def join(*parts):
-    """@param parts meshes and where they are"""
-    points, triangles = [], []
-    for (own, cells), at in parts:
-        triangles += [tuple(len(points) + k for k in cell) for cell in cells]
-        points += list(numpy.asarray(own) + at)
-    return numpy.array(points), triangles
-
-
 @pytest.mark.parametrize("cells", [1, 2, 29])
 def test_a_box_of_triangles_slides_and_sticks_on_an_incline(sensors, tmp_path, cells):
     write(tmp_path, triangle_meshes.box([0.4, 0.3, 0.2], cells))
@@ -86,7 +77,7 @@ def test_a_box_of_triangles_loses_what_its_restitution_says(sensors, tmp_path):
 @pytest.mark.parametrize("friction", ["", ", static: 0.4"])
 def test_a_stool_stands_on_three_legs(sensors, tmp_path, friction):
     legs = [(triangle_meshes.box([0.05, 0.05, 0.3], 4), [0.2 * math.cos(a), 0.2 * math.sin(a), 0]) for a in (0.1, 2.2, 4.3)]
-    write(tmp_path, join(*legs, (triangle_meshes.box([0.5, 0.5, 0.05], 3), [0, 0, 0.2])))
+    write(tmp_path, triangle_meshes.join(*legs, (triangle_meshes.box([0.5, 0.5, 0.05], 3), [0, 0, 0.2])))
     out = sensors(model(f"{{plane: {{}}}}, {STL}", f", restitution: 0.2{friction}", at="0, 0, 0.2", duration="1.5 s"))
     rests = out["t"] > 1
     assert out["p.z"][rests] == pytest.approx(0.15, abs=1e-12)

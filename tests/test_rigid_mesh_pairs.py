@@ -39,15 +39,6 @@ def write(tmp_path, **meshes):
         triangle_meshes.write_stl(tmp_path / f"{name}.stl", *mesh, text=True)
 
 
-def join(*parts):
-    """@param parts meshes and where they are"""
-    points, triangles = [], []
-    for (own, cells), at in parts:
-        triangles += [tuple(len(points) + k for k in cell) for cell in cells]
-        points += list(numpy.asarray(own) + at)
-    return numpy.array(points), triangles
-
-
 # On a table 0.2 thick, whose top is at z = 0: 12, 48 and 972 triangles.
 TABLE = [3.0, 2.0, 0.2]
 SHAPES = [(BASE, PART), (BASE, "{box: [0.4, 0.3, 0.2]}"), ("{box: [3, 2, 0.2]}", PART)]
@@ -172,7 +163,7 @@ output: {{every: 1 ms, sensors: {{va: {{velocity: a}}, vb: {{velocity: b}}, wa: 
 def test_a_peg_goes_into_a_slot(sensors, tmp_path):
     """With 1 mm on either side of it, tilted and turned: it rattles between the walls down to the ground, which is no part of them."""
     walls = [(triangle_meshes.box([0.4, 0.1, 0.3], 2), [0, y, 0]) for y in (0.101, -0.101)]
-    write(tmp_path, part=triangle_meshes.box([0.3, 0.1, 0.2], 3), base=join(*walls, (triangle_meshes.box([0.4, 0.3, 0.1], 2), [0, 0, -0.2])))
+    write(tmp_path, part=triangle_meshes.box([0.3, 0.1, 0.2], 3), base=triangle_meshes.join(*walls, (triangle_meshes.box([0.4, 0.3, 0.1], 2), [0, 0, -0.2])))
     out = sensors(model(f"{BASE}, {PART}", ", restitution: 0.2, static: 0.3", at="0, 0, 0.2", spin="0.5, 0, 0.2", first="ground"))
     assert out["p.z"][0] > 0.19 and out["p.z"][-1] == pytest.approx(-0.05, abs=1e-9)
     # Tilted by what fits, it leans to one side while its middle is above the slot.
@@ -198,7 +189,7 @@ def test_tumbling_solids_keep_their_momentum(sensors, tmp_path, seed):
     chance = random.Random(seed)
 
     def bent(a):
-        return join((triangle_meshes.box([0.3, 0.1, 0.1], 1), [0, 0, -a / 2]), (triangle_meshes.box([0.08, 0.1, 0.2], 2), [0.1, 0, 0.15 - a / 2]))
+        return triangle_meshes.join((triangle_meshes.box([0.3, 0.1, 0.1], 1), [0, 0, -a / 2]), (triangle_meshes.box([0.08, 0.1, 0.2], 2), [0.1, 0, 0.15 - a / 2]))
 
     write(tmp_path, part=bent(0.1), base=bent(0.06))
     spin = [[chance.uniform(-6, 6) for _ in range(3)] for _ in range(2)]

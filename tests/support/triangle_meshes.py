@@ -23,6 +23,15 @@ def write_stl(path, points, triangles, text=False):
             file.write(struct.pack("<12fH", 0, 0, 0, *points[list(triangle)].ravel(), 0))
 
 
+def join(*parts):
+    """One mesh of several. @param parts meshes and where they are"""
+    points, triangles = [], []
+    for (own, cells), at in parts:
+        triangles += [tuple(len(points) + k for k in cell) for cell in cells]
+        points += list(numpy.asarray(own) + at)
+    return numpy.array(points), triangles
+
+
 def plate(width, cells, seed=0):
     """A square of z = 0, seen from above, its inner points out of line."""
     places = numpy.linspace(-width / 2, width / 2, cells + 1)

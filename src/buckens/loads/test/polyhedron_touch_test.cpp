@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "buckens/loads/test/triangle_block.h"
 #include "buckens/spatial/box_separation.h"
 #include "buckens/spatial/segment_pair.h"
 #include "buckens/spatial/test/found_rates.h"
@@ -23,39 +24,17 @@ using spatial::TouchPlace;
 using spatial::TriangleList;
 using Solid = std::shared_ptr<const Polyhedron>;
 
-/// A block, its faces divided into n × n rectangles, around a middle; added to others.
-void add_block(const Vector3d& middle, const Vector3d& half, int n, TriangleList& out) {
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double side : {1.0, -1.0}) {
-      const Vector3d u = half[(axis + 1) % 3] * Vector3d::Unit((axis + 1) % 3);
-      const Vector3d v = side * half[(axis + 2) % 3] * Vector3d::Unit((axis + 2) % 3);
-      const auto at = [&](int i, int j) -> Vector3d {
-        return middle + side * half[axis] * Vector3d::Unit(axis) + (2.0 * i / n - 1.0) * u +
-               (2.0 * j / n - 1.0) * v;
-      };
-      for (int k = 0; k < n * n; ++k) {
-        const int i = k / n, j = k % n, first = static_cast<int>(out.points.size());
-        for (const auto& [x, y] : {std::pair{i, j}, {i + 1, j}, {i + 1, j + 1}, {i, j + 1}}) {
-          out.points.push_back(at(x, y));
-        }
-        out.triangles.push_back({first, first + 1, first + 2});
-        out.triangles.push_back({first, first + 2, first + 3});
-      }
-    }
-  }
-}
-
 Solid block_of(const Vector3d& half, int n) {
   TriangleList out;
-  add_block(Vector3d::Zero(), half, n, out);
+  test::add_block(Vector3d::Zero(), half, n, out);
   return std::make_shared<const Polyhedron>(out);
 }
 
 /// Two blocks apart: not convex.
 Solid tines(int n) {
   TriangleList out;
-  add_block({0.15, 0, 0}, {0.05, 0.1, 0.2}, n, out);
-  add_block({-0.15, 0, 0}, {0.05, 0.1, 0.2}, n, out);
+  test::add_block({0.15, 0, 0}, {0.05, 0.1, 0.2}, n, out);
+  test::add_block({-0.15, 0, 0}, {0.05, 0.1, 0.2}, n, out);
   return std::make_shared<const Polyhedron>(out);
 }
 

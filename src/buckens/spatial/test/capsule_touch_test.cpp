@@ -16,7 +16,6 @@ namespace buckens::spatial {
 namespace {
 
 using Eigen::Vector3d;
-using Finders = std::vector<std::shared_ptr<const TouchFinder>>;
 using Kind = TouchSurface::Kind;
 
 TouchSurface solid(Kind kind) {
@@ -38,8 +37,8 @@ TouchSurface pill() {
   return out;
 }
 
-Finders finders(Kind kind) {
-  Finders out;
+TouchFinders finders(Kind kind) {
+  TouchFinders out;
   const TouchSurface on = solid(kind), capsule = pill();
   if (kind == Kind::box) return capsule_over_edges(on, capsule);
   out.push_back(capsule_across_cylinder(on, capsule));
@@ -50,19 +49,6 @@ Finders finders(Kind kind) {
   }
   return out;
 }
-
-/// A pair of markers whose shapes are apart, in general position.
-struct Placed {
-  test::MarkerPath F, M;
-  explicit Placed(std::mt19937& chance) {
-    std::uniform_real_distribution<double> any(-1, 1);
-    const auto vector = [&] { return Vector3d(any(chance), any(chance), any(chance)); };
-    for (test::MarkerPath* path : {&F, &M}) {
-      *path = {vector(), vector(), vector(), exp_rotation(3 * vector()).toRotationMatrix(),
-               vector(), vector()};
-    }
-  }
-};
 
 /// The least distance of the capsule's axis from the solid, at a great number of its points.
 double least_distance(const TouchSurface& on, const MarkerMotion& F, const MarkerMotion& M) {
@@ -82,7 +68,7 @@ TEST(CapsuleTouch, TheLeastGapIsThatOfTheAxis) {
     std::mt19937 chance(3);
     int count = 0;
     for (int k = 0; k < 400; ++k) {
-      const Placed placed(chance);
+      const test::MarkerPair placed(chance);
       const MarkerMotion F = placed.F.at(0), M = placed.M.at(0);
       const double least = least_distance(on, F, M);
       if (least < -0.05) continue;
@@ -111,7 +97,7 @@ TEST(CapsuleTouch, RatesAreThoseOfGapPlaceAndNormal) {
     std::mt19937 chance(4);
     int count = 0;
     for (int k = 0; k < 200; ++k) {
-      const Placed placed(chance);
+      const test::MarkerPair placed(chance);
       if (least_distance(solid(kind), placed.F.at(0), placed.M.at(0)) < 0.02) continue;
       for (const auto& finder : finders(kind))
         count += test::expect_rates(*finder, placed.F, placed.M);

@@ -16,7 +16,6 @@ namespace buckens::spatial {
 namespace {
 
 using Eigen::Vector3d;
-using CylinderPlaces = std::vector<std::shared_ptr<const TouchFinder>>;
 
 TouchSurface lower(TouchSurface::Kind kind) {
   TouchSurface out;
@@ -37,23 +36,10 @@ TouchSurface tube() {
   return out;
 }
 
-CylinderPlaces places_of(const TouchSurface& first, const TouchSurface& second) {
+TouchFinders places_of(const TouchSurface& first, const TouchSurface& second) {
   return first.kind == TouchSurface::Kind::box ? cylinder_over_box(first, second)
                                                : cylinder_over_cylinder(first, second);
 }
-
-/// A pair of markers in general position.
-struct PlacedCylinder {
-  test::MarkerPath F, M;
-  explicit PlacedCylinder(std::mt19937& chance) {
-    std::uniform_real_distribution<double> any(-1, 1);
-    const auto vector = [&] { return Vector3d(any(chance), any(chance), any(chance)); };
-    for (test::MarkerPath* path : {&F, &M}) {
-      *path = {0.7 * vector(), vector(), vector(), exp_rotation(3 * vector()).toRotationMatrix(),
-               vector(),       vector()};
-    }
-  }
-};
 
 /// The point of a solid that is nearest to x.
 Vector3d projected(const TouchSurface& solid, const MarkerMotion& at, const Vector3d& x) {
@@ -86,11 +72,11 @@ double distance_of(const TouchSurface& first, const MarkerMotion& F, const Touch
 TEST(CylinderTouch, TheLeastGapIsThatOfTheSolids) {
   for (const auto kind : {TouchSurface::Kind::box, TouchSurface::Kind::cylinder}) {
     const TouchSurface first = lower(kind), second = tube();
-    const CylinderPlaces all = places_of(first, second);
+    const TouchFinders all = places_of(first, second);
     std::mt19937 chance(3);
     int count = 0;
     for (int k = 0; k < 800; ++k) {
-      const PlacedCylinder placed(chance);
+      const test::MarkerPair placed(chance, 0.7);
       const MarkerMotion F = placed.F.at(0), M = placed.M.at(0);
       const double least = distance_of(first, F, second, M);
       double gap = HUGE_VAL;
@@ -114,8 +100,8 @@ TEST(CylinderTouch, TheLeastGapIsThatOfTheSolids) {
 }
 
 /// Moves the second away from the first, or towards it, until the distance is this.
-void put_at_distance(const TouchSurface& first, const TouchSurface& second, PlacedCylinder& placed,
-                     double aim) {
+void put_at_distance(const TouchSurface& first, const TouchSurface& second,
+                     test::MarkerPair& placed, double aim) {
   for (int k = 0; k < 6; ++k) {
     const MarkerMotion F = placed.F.at(0), M = placed.M.at(0);
     Vector3d y = M.p, x = F.p;
@@ -132,11 +118,11 @@ void put_at_distance(const TouchSurface& first, const TouchSurface& second, Plac
 TEST(CylinderTouch, WhatOverlapsALittleHasOnePlaceThatSaysByHowMuch) {
   for (const auto kind : {TouchSurface::Kind::box, TouchSurface::Kind::cylinder}) {
     const TouchSurface first = lower(kind), second = tube();
-    const CylinderPlaces all = places_of(first, second);
+    const TouchFinders all = places_of(first, second);
     std::mt19937 chance(5);
     int count = 0;
     for (int k = 0; k < 200; ++k) {
-      PlacedCylinder placed(chance);
+      test::MarkerPair placed(chance, 0.7);
       put_at_distance(first, second, placed, 1e-3);
       const MarkerMotion F = placed.F.at(0);
       MarkerMotion M = placed.M.at(0);
@@ -182,11 +168,11 @@ bool has_exact_rates(const TouchPlace& place, const TouchSurface& first, const M
 TEST(CylinderTouch, RatesAreThoseOfGapPlaceAndNormal) {
   for (const auto kind : {TouchSurface::Kind::box, TouchSurface::Kind::cylinder}) {
     const TouchSurface first = lower(kind), second = tube();
-    const CylinderPlaces all = places_of(first, second);
+    const TouchFinders all = places_of(first, second);
     std::mt19937 chance(4);
     int count = 0;
     for (int k = 0; k < 300; ++k) {
-      PlacedCylinder placed(chance);
+      test::MarkerPair placed(chance, 0.7);
       put_at_distance(first, second, placed, 0.02);
       const MarkerMotion F = placed.F.at(0), M = placed.M.at(0);
       for (const auto& finder : all) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <random>
+
 #include "buckens/spatial/marker_motion.h"
 #include "buckens/spatial/rotation.h"
 
@@ -34,6 +36,25 @@ struct MarkerPath {
     out.w << 0.9, -1.2 + s, 0.4 * s;
     out.alpha << 0.5 * s, 1.3, -0.6;
     return out;
+  }
+};
+
+/// Two marker frames in general position.
+struct MarkerPair {
+  MarkerPath F, M;
+
+  /// @param reach of their origins along each axis [m]
+  explicit MarkerPair(std::mt19937& chance, double reach = 1.0) {
+    std::uniform_real_distribution<double> any(-1, 1);
+    const auto vector = [&] { return Eigen::Vector3d(any(chance), any(chance), any(chance)); };
+    for (MarkerPath* path : {&F, &M}) {
+      path->p = reach * vector();
+      path->v = vector();
+      path->a = vector();
+      path->R = spatial::exp_rotation(3 * vector()).toRotationMatrix();
+      path->w = vector();
+      path->alpha = vector();
+    }
   }
 };
 
