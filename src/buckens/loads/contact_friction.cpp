@@ -33,6 +33,7 @@ ContactFriction::Slip ContactFriction::slip(const Sight& sight) const {
   const spatial::TouchPlace place = touch_.look(sight.first, sight.second);
   const Eigen::Vector3d v = place.velocity(sight.first, sight.second);
   Slip out;
+  out.touches = place.touches;
   out.load = place.normal.dot(sight.reaction.force);
   for (int k = 0; k < touch_.num_directions(); ++k) {
     const Eigen::Vector3d& along = place.along[static_cast<std::size_t>(k)];
@@ -50,12 +51,12 @@ ContactFriction::Slip ContactFriction::slip(const Sight& sight) const {
 
 RigidRow ContactFriction::row(const Sight& sight) const {
   RigidRow out;
-  if (sight.stand.regime != 0 && !touch_.look(sight.first, sight.second).touches) {
+  const Slip now = slip(sight);
+  if (sight.stand.regime != 0 && !now.touches) {
     out.has_gone = true;
     return out;
   }
   out.next = sight.stand;
-  const Slip now = slip(sight);
   out.slip = now.velocity[direction_];
   out.is_closed = sight.stand.regime == 1;
   if (!(now.load > 0.0)) {

@@ -44,8 +44,9 @@ class ContactFriction final : public RigidLaw {
  private:
   /// How it slides, or is about to.
   struct Slip {
-    double load = 0;   ///< N [N]
-    double speed = 0;  ///< [m/s]
+    bool touches = true;  ///< there is something to rub on
+    double load = 0;      ///< N [N]
+    double speed = 0;     ///< [m/s]
     Eigen::Vector2d velocity = Eigen::Vector2d::Zero();
     Eigen::Vector2d force = Eigen::Vector2d::Zero();    ///< of the rows as they stand [N]
     Eigen::Vector2d towards = Eigen::Vector2d::Zero();  ///< unit vector of sliding, or zero

@@ -4,7 +4,8 @@
 namespace buckens::loads {
 
 bool ContactStop::has_gone(const Sight& sight) const {
-  return sight.stand.regime != 0 && !touch_.look(sight.first, sight.second).touches;
+  return sight.stand.regime != 0 && touch_.may_go() &&
+         !touch_.look(sight.first, sight.second).touches;
 }
 
 Action ContactStop::respond(const Sight& sight) const {

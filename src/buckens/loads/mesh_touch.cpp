@@ -118,9 +118,8 @@ std::vector<std::vector<int>> far_groups(const std::vector<Vector3d>& points,
   return out;
 }
 
-std::vector<std::shared_ptr<const TouchFinder>> plane_touches(const TouchSurface& plane,
-                                                              const ContactMesh& mesh) {
-  std::vector<std::shared_ptr<const TouchFinder>> out;
+spatial::TouchFinders plane_touches(const TouchSurface& plane, const ContactMesh& mesh) {
+  spatial::TouchFinders out;
   const double size = mesh.box().diagonal().norm();
   const std::vector<Vector3d> corners = mesh.sharp_corners();
   const std::size_t most = corners.size() > kMostSingleCorners ? kCornerGroups : corners.size();
@@ -132,9 +131,9 @@ std::vector<std::shared_ptr<const TouchFinder>> plane_touches(const TouchSurface
   return out;
 }
 
-std::vector<std::shared_ptr<const TouchFinder>> sphere_touches(
-    const std::shared_ptr<const ContactMesh>& mesh, double radius, const Vector3d& at) {
-  std::vector<std::shared_ptr<const TouchFinder>> out;
+spatial::TouchFinders sphere_touches(const std::shared_ptr<const ContactMesh>& mesh, double radius,
+                                     const Vector3d& at) {
+  spatial::TouchFinders out;
   for (int colour = 0; colour < mesh->num_colours(); ++colour) {
     out.push_back(std::make_shared<SphereAtPatch>(mesh, colour, radius, at));
   }

@@ -20,13 +20,12 @@ std::vector<std::vector<int>> far_groups(const std::vector<Eigen::Vector3d>& poi
 
 /// The corners with which a mesh of M can touch a plane of F: one finder for each, or for each
 /// group of them, which finds the lowest, of those at the same height the first.
-std::vector<std::shared_ptr<const spatial::TouchFinder>> plane_touches(
-    const spatial::TouchSurface& plane, const ContactMesh& mesh);
+spatial::TouchFinders plane_touches(const spatial::TouchSurface& plane, const ContactMesh& mesh);
 
 /// Where a sphere of M, or an end of a capsule, is nearest to a mesh of F: one finder for each
 /// colour of its patches.
 /// @param at centre in axes of its marker [m]
-std::vector<std::shared_ptr<const spatial::TouchFinder>> sphere_touches(
-    const std::shared_ptr<const ContactMesh>& mesh, double radius, const Eigen::Vector3d& at);
+spatial::TouchFinders sphere_touches(const std::shared_ptr<const ContactMesh>& mesh, double radius,
+                                     const Eigen::Vector3d& at);
 
 }  // namespace buckens::loads

@@ -13,7 +13,7 @@ namespace buckens::loads {
 /// Up to so many sharp edges of the body that has fewer have places of their own.
 inline constexpr std::size_t kMostSingleEdges = 24, kEdgeGroups = 24;
 
-using TouchFinders = std::vector<std::shared_ptr<const spatial::TouchFinder>>;
+using spatial::TouchFinders;
 
 /// Where sharp corners of one body touch faces of another: one finder for each, or for each group
 /// of them.

@@ -36,9 +36,8 @@ RoundSegment edge_of(const TouchSurface& box, int along, double one, double othe
 
 }  // namespace
 
-std::vector<std::shared_ptr<const TouchFinder>> capsule_over_edges(const TouchSurface& box,
-                                                                   const TouchSurface& capsule) {
-  std::vector<std::shared_ptr<const TouchFinder>> out;
+TouchFinders capsule_over_edges(const TouchSurface& box, const TouchSurface& capsule) {
+  TouchFinders out;
   for (int along = 0; along < 3; ++along) {
     if (box.flat >= 0 && along != box.flat) continue;
     for (const double one : {1.0, -1.0}) {

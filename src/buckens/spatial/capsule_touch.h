@@ -10,8 +10,7 @@ namespace buckens::spatial {
 
 /// Where the axis of a capsule of M is nearest to the edges of a box of F, one finder for each; in
 /// planar models to its four corners. The ends of the capsule are places of their own.
-std::vector<std::shared_ptr<const TouchFinder>> capsule_over_edges(const TouchSurface& box,
-                                                                   const TouchSurface& capsule);
+TouchFinders capsule_over_edges(const TouchSurface& box, const TouchSurface& capsule);
 
 /// Where the axis of a capsule of M is nearest to a rim of a cylinder of F, on one side of the
 /// place where it is nearest to the cylinder's axis; where nothing is nearest there, its end.

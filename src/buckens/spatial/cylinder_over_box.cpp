@@ -12,7 +12,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-using Finders = std::vector<std::shared_ptr<const TouchFinder>>;
 using EdgePair = std::array<SharpEdge, 2>;
 
 /// An edge of F at the side of a cylinder of M; beyond its ends, at the rim there.
@@ -81,19 +80,8 @@ void add_edges(const TouchSurface& box, const TouchSurface& cylinder, Add add) {
 
 }  // namespace
 
-std::array<std::array<Vector3d, 2>, 4> points_on_ends(const TouchSurface& cylinder) {
-  const Vector3d u = M_SQRT1_2 * kInsideEnd * cylinder.radius * cylinder.axis.unitOrthogonal();
-  const Vector3d w = cylinder.axis.cross(u), up = cylinder.half_length * cylinder.axis;
-  std::array<std::array<Vector3d, 2>, 4> out;
-  std::size_t next = 0;
-  for (const Vector3d& at : {Vector3d(u + w), Vector3d(u - w), Vector3d(-u - w), Vector3d(w - u)}) {
-    out[next++] = {at + up, at - up};
-  }
-  return out;
-}
-
-Finders cylinder_over_box(const TouchSurface& box, const TouchSurface& cylinder) {
-  Finders out;
+TouchFinders cylinder_over_box(const TouchSurface& box, const TouchSurface& cylinder) {
+  TouchFinders out;
   const auto add = [&]<class Look>(Look look) {
     out.push_back(std::make_shared<FoundBy<Look>>(box, cylinder, std::move(look)));
   };

@@ -12,8 +12,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-using CylinderFinders = std::vector<std::shared_ptr<const TouchFinder>>;
-
 // How many times faster than the bodies a place may be to be followed, and the speed of bodies that
 // hardly move, in sizes per second.
 constexpr double kRaces = 20.0, kSlowest = 1.0;
@@ -78,8 +76,8 @@ void add_ends(const TouchSurface& under, const TouchSurface& over, Add add) {
 
 }  // namespace
 
-CylinderFinders cylinder_over_cylinder(const TouchSurface& first, const TouchSurface& second) {
-  CylinderFinders out;
+TouchFinders cylinder_over_cylinder(const TouchSurface& first, const TouchSurface& second) {
+  TouchFinders out;
   const auto add = [&]<class Look>(Look look) {
     out.push_back(std::make_shared<FoundBy<Look>>(first, second, std::move(look)));
   };

@@ -12,10 +12,6 @@
 
 namespace buckens::spatial {
 
-// Share of the radius at which points lie that stay on an end, so that what rolls does not touch
-// with them.
-inline constexpr double kInsideEnd = 0.9999;
-
 // Share of a size by which what does not touch is apart.
 inline constexpr double kNoContact = 1e-3;
 // Gap down to which nothing is asked of a place, as a share of the smaller body.

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "buckens/spatial/marker_motion.h"
 #include "buckens/spatial/touch_surface.h"
@@ -34,6 +35,8 @@ class TouchFinder {
   /// @param out all but its directions is written
   virtual void look(const MarkerMotion& F, const MarkerMotion& M, TouchPlace& out) const = 0;
 };
+
+using TouchFinders = std::vector<std::shared_ptr<const TouchFinder>>;
 
 /// One place in which shapes of F and M touch.
 ///
@@ -69,6 +72,8 @@ class RigidTouch {
   explicit RigidTouch(const Data& data) : data_(data) {}
 
   TouchPlace look(const MarkerMotion& F, const MarkerMotion& M) const;
+  /// Whether it can cease to touch while the bodies are near: TouchPlace::touches.
+  bool may_go() const { return data_.feature == Feature::found; }
   /// In how many directions it can slip.
   int num_directions() const { return data_.out_of_plane ? 1 : 2; }
 

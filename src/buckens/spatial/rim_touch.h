@@ -21,10 +21,10 @@ struct Rim {
 
 /// An edge of a box, in axes of its marker.
 struct SharpEdge {
-  Eigen::Vector3d middle;                 ///< [m]
-  Eigen::Vector3d along;                  ///< unit vector
-  double half_length;                     ///< [m]
-  std::array<Eigen::Vector3d, 2> normals; /**< of both faces */
+  Eigen::Vector3d middle;                  ///< [m]
+  Eigen::Vector3d along;                   ///< unit vector
+  double half_length;                      ///< [m]
+  std::array<Eigen::Vector3d, 2> normals;  ///< of both faces
 
   /// @param axis along it, @param one,other signs along the axes after it
   static SharpEdge of(const TouchSurface& box, int axis, double one, double other);

@@ -147,7 +147,7 @@ class TouchList {
     }
   }
 
-  void add_found(const std::vector<std::shared_ptr<const spatial::TouchFinder>>& finders) {
+  void add_found(const spatial::TouchFinders& finders) {
     RigidTouch::Data data;
     data.feature = Feature::found;
     for (const auto& finder : finders) {
