@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "buckens/base/dimension.h"
+#include "buckens/base/member.h"
 
 namespace buckens::base {
 
@@ -27,64 +28,49 @@ struct FieldNote {
   std::string word;      ///< accepted instead of the number, which is then 0
 };
 
-// Lists of fields do these a thousand times: out of line, sources that visit all fields take half
-// of the time to compile.
-[[gnu::noinline]] inline FieldNote note_of(const char* name, const char* doc) {
-  FieldNote out;
-  out.name = name;
-  out.doc = doc;
-  return out;
-}
-[[gnu::noinline]] inline void set_text(std::string& text, const char* value) { text = value; }
-
 /// One line of a field list: a key of the model file, the member it fills, and the rules.
 ///
 /// A spec carries its field list as the member template `fields(visit)`; the reader, the schema and
 /// the reference page all visit the same list.
-template <class T>
 struct Field {
-  T& member;
+  Member member;
   FieldNote note;
 
   // A chain of these says the rules of one temporary, which is not moved from link to link.
-  Field&& in(Dimension dimension) && { return note.dimension = dimension, std::move(*this); }
-  Field&& required() && { return note.is_required = true, std::move(*this); }
-  Field&& positive() && { return note.range = Range::positive, std::move(*this); }
-  Field&& non_negative() && { return note.range = Range::non_negative, std::move(*this); }
-  Field&& within(Range range) && { return note.range = range, std::move(*this); }
-  Field&& shorthand() && { return note.is_shorthand = true, std::move(*this); }
-  Field&& of_any_dimension() && { return note.any_dimension = true, std::move(*this); }
-  Field&& on_off() && { return note.is_switch = true, std::move(*this); }
-  Field&& like(std::string example) && {
-    return note.example = std::move(example), std::move(*this);
-  }
-  Field&& like(const char* example) && { return set_text(note.example, example), std::move(*this); }
-  Field&& otherwise(std::string standard) && {
-    return note.standard = std::move(standard), std::move(*this);
-  }
-  Field&& otherwise(const char* standard) && {
-    return set_text(note.standard, standard), std::move(*this);
-  }
-  Field&& or_word(std::string word) && { return note.word = std::move(word), std::move(*this); }
+  Field&& in(Dimension dimension) &&;
+  Field&& required() &&;
+  Field&& positive() &&;
+  Field&& non_negative() &&;
+  Field&& within(Range range) &&;
+  Field&& shorthand() &&;
+  Field&& of_any_dimension() &&;
+  Field&& on_off() &&;
+  Field&& like(std::string example) &&;
+  Field&& like(const char* example) &&;
+  Field&& otherwise(std::string standard) &&;
+  Field&& otherwise(const char* standard) &&;
+  Field&& or_word(std::string word) &&;
 };
 
+// Texts are copied out of line: lists of fields do it a thousand times.
+Field field_of(Member member, const char* name, const char* doc);
+Field field_of(Member member, std::string name, std::string doc);
+
 template <class T>
-Field<T> field(std::string name, T& member, std::string doc) {
-  return {
-      member,
-      {std::move(name), std::move(doc), {}, Range::any, false, false, false, false, {}, {}, {}}};
+Field field(std::string name, T& member, std::string doc) {
+  return field_of(member_of(member), std::move(name), std::move(doc));
 }
 
 template <class T>
-Field<T> field(const char* name, T& member, const char* doc) {
-  return {member, note_of(name, doc)};
+Field field(const char* name, T& member, const char* doc) {
+  return field_of(member_of(member), name, doc);
 }
 
 /// The value replaces the struct: a variant's alternatives become keys next to the other
 /// fields (exactly one of them), any other member is the struct's whole content.
 template <class T>
-Field<T> inlined(T& member, std::string doc) {
-  return field<T>("", member, std::move(doc));
+Field inlined(T& member, std::string doc) {
+  return field_of(member_of(member), "", std::move(doc));
 }
 
 /// Something given either by the name of an entry elsewhere or written out in place.

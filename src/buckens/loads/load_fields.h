@@ -13,27 +13,27 @@ namespace buckens::loads {
 
 /// Part of a body on which the load acts.
 template <class Part>
-base::Field<Part> part_field(Part& on, std::string doc, std::string example) {
+base::Field part_field(Part& on, std::string doc, std::string example) {
   return base::field("on", on, std::move(doc)).required().like(std::move(example));
 }
 
 /// Three laws of time, or an optional triple of them.
 template <class Laws>
-base::Field<Laws> components_field(std::string name, Laws& laws, base::Dimension dimension,
-                                   std::string example) {
+base::Field components_field(std::string name, Laws& laws, base::Dimension dimension,
+                             std::string example) {
   return base::field(std::move(name), laws, "three components, each a number or a law of time")
       .in(dimension)
       .like(std::move(example));
 }
 
 /// @param owner whose axes the load may follow: "body" or "marker"
-inline base::Field<LoadAxes> axes_field(LoadAxes& axes, const std::string& owner) {
+inline base::Field axes_field(LoadAxes& axes, const std::string& owner) {
   return base::field("axes", axes,
                      "world axes (`fixed`) or those of the " + owner + " (`following`)");
 }
 
 /// Signal that a load of laws of time is multiplied with.
-inline base::Field<std::string> factor_field(std::string& factor) {
+inline base::Field factor_field(std::string& factor) {
   return base::field("signal", factor, "name of a signal that multiplies the value")
       .like("u")
       .otherwise("none");

@@ -8,6 +8,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/files/text_file.h"
 #include "buckens/files/text_lines.h"
+#include "buckens/model/spec/description_member.h"
 #include "buckens/model_file/doubts.h"
 #include "buckens/model_file/effective_text.h"
 #include "buckens/model_file/fields.h"
@@ -137,7 +138,7 @@ model::ModelDescription read_with_meshes(const std::string& text, const std::str
   context.step_meshes = &meshes;
   // A signal may look at those below it, too.
   context.signals = signal_names(root);
-  read_record({root, ""}, context, out);
+  read_record({root, ""}, context, model::description_member(out));
   check_table_ranges(out);
   out.warnings = doubt_warnings(root, model::doubtful_values(out));
   out.where = {name, 0, 0};

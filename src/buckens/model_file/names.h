@@ -27,23 +27,12 @@ base::MarkerRef read_marker(const ReadPlace& place, const ReadContext& context);
 /// Reads `chord`, `frame` or a marker.
 model::DeflectionBase read_deflection_base(const ReadPlace& place, const ReadContext& context);
 
-inline const std::vector<fem::MaterialSpec>& definitions(const ReadContext& context,
-                                                         const fem::MaterialSpec* /*type*/) {
-  return context.model->materials;
-}
-inline const std::vector<fem::SectionSpec>& definitions(const ReadContext& context,
-                                                        const fem::SectionSpec* /*type*/) {
-  return context.model->sections;
-}
-
 /// Throws a finding in the spec read from `place`.
 /// @throws InputError with the place of the field in the file
 void fail_if_found(const model::Found& found, const ReadPlace& place);
 
-/// To be called when a named entry has been read: makes parameters known to expressions, and gives
-/// bodies what they are `like`.
-template <class T>
-void finish_entry(T& /*entry*/, const ReadPlace& /*place*/, ReadContext& /*context*/) {}
+// To be called when a named entry has been read: makes parameters known to expressions, and gives
+// bodies what they are `like`.
 void finish_entry(model::ParameterSpec& parameter, const ReadPlace& place, ReadContext& context);
 void finish_entry(body::BodySpec& body, const ReadPlace& place, ReadContext& context);
 void finish_entry(loads::LoadSpec& load, const ReadPlace& place, ReadContext& context);

@@ -1,71 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/model_file/shape.h"
 
+#include <memory>
+#include <stdexcept>
+
 #include <fmt/format.h>
 
-#include "buckens/base/field_types.h"
-#include "buckens/model/spec/model_description.h"
+#include "buckens/base/member_types.h"
+#include "buckens/model/spec/description_member.h"
 #include "buckens/model_file/table.h"
 
 namespace buckens::model_file {
 
 namespace {
 
-template <class T>
-Shape shape_of();
+using base::Member;
+using base::MemberType;
+using Form = MemberType::Form;
 
-/// Default of a member as the file would write it, "" where there is none worth printing.
-template <class T>
-std::string default_text(const T& value, const base::FieldNote& note) {
-  if (note.is_required) return "";
-  if (!note.standard.empty()) return note.standard;
-  if constexpr (std::is_same_v<T, bool>) {
-    if (note.is_switch) return value ? "on" : "off";
-    return value ? "true" : "false";
-  } else if constexpr (std::is_arithmetic_v<T>) {
-    return fmt::format("{:g}", static_cast<double>(value));
-  } else if constexpr (std::is_enum_v<T>) {
-    return base::choices_of<T>()[static_cast<std::size_t>(value)];
-  } else if constexpr (std::is_same_v<T, std::string>) {
-    return value;
-  } else if constexpr (std::is_same_v<T, body::FrameDivision>) {
-    return fmt::format("{}", value.count);
-  } else if constexpr (std::is_same_v<T, model::DeflectionBase>) {
-    return T::kWords[0];
-  } else if constexpr (std::is_same_v<T, Eigen::Vector3d>) {
-    return fmt::format("[{:g}, {:g}, {:g}]", value.x(), value.y(), value.z());
-  } else {
-    return "";
-  }
+Shape shape_of(const MemberType& type);
+
+std::string default_choice(const Member& member) {
+  return member.type->choices()[member.type->index(member.at)];
 }
 
-class ShapeBuilder {
- public:
-  explicit ShapeBuilder(Shape& out) : out_(out) {}
-
-  template <class T>
-  void operator()(const base::Field<T>& field) {
-    if constexpr (base::kIsVariant<T>) {
-      add_alternatives(std::type_identity<T>{});
-    } else {
-      out_.fields.push_back({field.note, shape_of<T>(), default_text(field.member, field.note)});
-    }
+/// Default of a member as the file would write it, "" where there is none worth printing.
+std::string default_text(const Member& member, const base::FieldNote& note) {
+  if (note.is_required) return "";
+  if (!note.standard.empty()) return note.standard;
+  if (member.type->form() == Form::choice) return default_choice(member);
+  if (const auto* truth = member.get<bool>()) {
+    if (note.is_switch) return *truth ? "on" : "off";
+    return *truth ? "true" : "false";
   }
-
- private:
-  template <class... A>
-  void add_alternatives(std::type_identity<std::variant<A...>> /*type*/) {
-    const auto add = [this]<class One>(std::type_identity<One>) {
-      base::FieldNote note;
-      note.name = One::kKey;
-      note.doc = One::kDoc;
-      out_.alternatives.push_back({note, shape_of<One>(), ""});
-    };
-    (add(std::type_identity<A>{}), ...);
+  if (const auto* number = member.get<double>()) return fmt::format("{:g}", *number);
+  if (const auto* number = member.get<int>()) return fmt::to_string(*number);
+  if (const auto* text = member.get<std::string>()) return *text;
+  if (const auto* frames = member.get<body::FrameDivision>()) return fmt::to_string(frames->count);
+  if (member.get<model::DeflectionBase>() != nullptr) return model::DeflectionBase::kWords[0];
+  if (const auto* v = member.get<Eigen::Vector3d>()) {
+    return fmt::format("[{:g}, {:g}, {:g}]", v->x(), v->y(), v->z());
   }
-
-  Shape& out_;
-};
+  return "";
+}
 
 Shape simple(Shape::Kind kind) {
   Shape out;
@@ -80,76 +57,89 @@ Shape list_of(Shape element, int count) {
   return out;
 }
 
-template <class T, std::size_t n>
-Shape array_shape(std::type_identity<std::array<T, n>> /*type*/) {
-  return list_of(shape_of<T>(), static_cast<int>(n));
-}
-
-template <class T>
-Shape reference_shape(std::type_identity<base::Reference<T>> /*type*/) {
-  Shape out = simple(Shape::Kind::reference);
-  out.element.push_back(shape_of<T>());
+/// A law of time, with what else the value may be.
+Shape law(std::vector<std::string> others) {
+  Shape out = simple(Shape::Kind::time_law);
+  out.element.push_back(shape_of(base::type_of<TableLawSpec>()));
+  out.choices = std::move(others);
   return out;
 }
 
-template <class T>
-Shape shape_of() {
-  if constexpr (std::is_same_v<T, double>) {
-    return simple(Shape::Kind::quantity);
-  } else if constexpr (std::is_same_v<T, int>) {
-    return simple(Shape::Kind::integer);
-  } else if constexpr (std::is_same_v<T, body::FrameDivision>) {
-    Shape out = simple(Shape::Kind::frame_division);
+Shape value_shape(const MemberType& type) {
+  if (type.is<double>()) return simple(Shape::Kind::quantity);
+  if (type.is<int>()) return simple(Shape::Kind::integer);
+  if (type.is<bool>()) return simple(Shape::Kind::truth);
+  if (type.is<std::string>()) return simple(Shape::Kind::text);
+  if (type.is<Eigen::Vector3d>()) return list_of(simple(Shape::Kind::quantity), 3);
+  if (type.is<base::TimeLaw>()) return law({});
+  if (type.is<base::SignalLaw>()) return law({"or of signals"});
+  if (type.is<base::Characteristic>()) return law({"or characteristic"});
+  if (type.is<model::PositionLaw>()) return simple(Shape::Kind::position_law);
+  if (type.is<base::MarkerRef>()) return simple(Shape::Kind::marker);
+  Shape out;
+  if (type.is<body::FrameDivision>()) {
+    out.kind = Shape::Kind::frame_division;
     out.choices = {body::FrameDivision::kPerElement};
-    return out;
-  } else if constexpr (std::is_same_v<T, bool>) {
-    return simple(Shape::Kind::truth);
-  } else if constexpr (std::is_same_v<T, std::string>) {
-    return simple(Shape::Kind::text);
-  } else if constexpr (std::is_enum_v<T>) {
-    Shape out = simple(Shape::Kind::choice);
-    out.choices = base::choices_of<T>();
-    return out;
-  } else if constexpr (std::is_same_v<T, Eigen::Vector3d>) {
-    return list_of(simple(Shape::Kind::quantity), 3);
-  } else if constexpr (std::is_same_v<T, base::TimeLaw>) {
-    Shape out = simple(Shape::Kind::time_law);
-    out.element.push_back(shape_of<TableLawSpec>());
-    return out;
-  } else if constexpr (std::is_same_v<T, base::SignalLaw>) {
-    Shape out = shape_of<base::TimeLaw>();
-    out.choices = {"or of signals"};
-    return out;
-  } else if constexpr (std::is_same_v<T, base::Characteristic>) {
-    Shape out = shape_of<base::TimeLaw>();
-    out.choices = {"or characteristic"};
-    return out;
-  } else if constexpr (std::is_same_v<T, model::PositionLaw>) {
-    return simple(Shape::Kind::position_law);
-  } else if constexpr (std::is_same_v<T, base::MarkerRef>) {
-    return simple(Shape::Kind::marker);
-  } else if constexpr (std::is_same_v<T, model::DeflectionBase>) {
-    Shape out = simple(Shape::Kind::word_or_marker);
-    out.choices = {T::kWords.begin(), T::kWords.end()};
-    return out;
-  } else if constexpr (base::kIsOptional<T>) {
-    return shape_of<typename T::value_type>();
-  } else if constexpr (base::kIsArray<T>) {
-    return array_shape(std::type_identity<T>{});
-  } else if constexpr (base::kIsReference<T>) {
-    return reference_shape(std::type_identity<T>{});
-  } else if constexpr (base::kIsVector<T>) {
-    Shape out = list_of(shape_of<typename T::value_type>(), -1);
-    if (base::kIsNamedList<T>) out.kind = Shape::Kind::named;
-    return out;
+  } else if (type.is<model::DeflectionBase>()) {
+    out.kind = Shape::Kind::word_or_marker;
+    out.choices = {model::DeflectionBase::kWords.begin(), model::DeflectionBase::kWords.end()};
   } else {
-    Shape out = simple(Shape::Kind::record);
-    out.type = typeid(T);
-    T record;
-    ShapeBuilder builder(out);
-    record.fields(builder);
-    return out;
+    throw std::logic_error(fmt::format("no shape for members of type {}", type.id().name()));
   }
+  return out;
+}
+
+Shape record_shape(const MemberType& type) {
+  Shape out = simple(Shape::Kind::record);
+  out.type = type.id();
+  const std::shared_ptr<void> record = type.make();
+  for (const base::Field& field : type.fields(record.get())) {
+    if (field.member.type->form() != Form::variant) {
+      out.fields.push_back(
+          {field.note, shape_of(*field.member.type), default_text(field.member, field.note)});
+      continue;
+    }
+    for (const base::AlternativeNote& one : field.member.type->alternatives()) {
+      base::FieldNote note;
+      note.name = one.key;
+      note.doc = one.doc;
+      out.alternatives.push_back({note, shape_of(*one.type), ""});
+    }
+  }
+  return out;
+}
+
+Shape shape_of(const MemberType& type) {
+  switch (type.form()) {
+    case Form::value:
+      return value_shape(type);
+    case Form::choice: {
+      Shape out = simple(Shape::Kind::choice);
+      out.choices = type.choices();
+      return out;
+    }
+    case Form::optional:
+      return shape_of(type.part_type());
+    case Form::reference: {
+      Shape out = simple(Shape::Kind::reference);
+      out.element.push_back(shape_of(type.part_type()));
+      return out;
+    }
+    case Form::array:
+      return list_of(shape_of(type.part_type()), static_cast<int>(type.size(nullptr)));
+    case Form::list: {
+      Shape out = list_of(shape_of(type.part_type()), -1);
+      if (out.element[0].kind == Shape::Kind::record && type.part_type().has_name()) {
+        out.kind = Shape::Kind::named;
+      }
+      return out;
+    }
+    case Form::variant:
+      break;
+    case Form::record:
+      return record_shape(type);
+  }
+  throw std::logic_error("a variant has no shape outside of a record");
 }
 
 }  // namespace
@@ -181,7 +171,10 @@ std::vector<std::string> Shape::keys() const {
 }
 
 const Shape& model_file_shape() {
-  static const Shape shape = shape_of<model::ModelDescription>();
+  static const Shape shape = [] {
+    model::ModelDescription empty;
+    return shape_of(*model::description_member(empty).type);
+  }();
   return shape;
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/member_types.h"
 #include "buckens/base/units.h"
 #include "buckens/files/text_file.h"
 #include "buckens/model_file/fields.h"
@@ -127,7 +128,7 @@ base::TimeLaw read_table_law(const ReadPlace& given, const base::FieldNote& note
   const ReadPlace place{node, given.path};
   TableLawSpec spec;
   ReadContext own = context;
-  read_record(place, own, spec);
+  read_record(place, own, base::member_of(spec));
   CsvColumns columns;
   if (spec.file.empty()) {
     for (const auto& [time, value] : spec.table) {

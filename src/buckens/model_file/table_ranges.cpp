@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/base/field_types.h"
-#include "buckens/base/visit_fields.h"
+#include "buckens/base/field.h"
+#include "buckens/model/spec/description_member.h"
 
 namespace buckens::model_file {
 
@@ -16,30 +16,22 @@ namespace {
 // Durations and times of a table are read from decimals; see time_law.cpp.
 constexpr double kRounding = 1e-9;
 
-/// Visits every law of time below a spec.
+/// Visits every law of time below a member.
 class RangeChecker {
  public:
   explicit RangeChecker(double duration) : duration_(duration) {}
 
-  template <class T>
-  void operator()(const base::Field<const T>& field) {
-    visit(field.member);
-  }
-
-  template <class T>
-  void visit(const T& value) {
-    if constexpr (std::is_same_v<T, base::TimeLaw>) {
-      check(value);
-    } else if constexpr (std::is_same_v<T, base::SignalLaw>) {
-      if (!value.formula) check(value.law);
-    } else if constexpr (base::kIsOptional<T>) {
-      if (value) visit(*value);
-    } else if constexpr (base::kIsVariant<T>) {
-      std::visit([&](const auto& alternative) { visit(alternative); }, value);
-    } else if constexpr (base::kIsArray<T> || base::kIsVector<T>) {
-      for (const auto& item : value) visit(item);
-    } else if constexpr (base::HasFields<T>) {
-      base::visit_fields(value, *this);
+  void visit(const base::Member& member) const {
+    using Form = base::MemberType::Form;
+    if (const auto* law = member.get<base::TimeLaw>()) check(*law);
+    if (const auto* law = member.get<base::SignalLaw>()) {
+      if (!law->formula) check(law->law);
+    }
+    const Form form = member.type->form();
+    if (form == Form::record) {
+      for (const base::Field& field : member.fields()) visit(field.member);
+    } else if (form != Form::value && form != Form::choice && form != Form::reference) {
+      for (const base::Member& part : member.parts()) visit(part);
     }
   }
 
@@ -62,10 +54,11 @@ class RangeChecker {
 }  // namespace
 
 void check_table_ranges(const model::ModelDescription& model) {
-  RangeChecker checker(model.simulation ? model.simulation->duration : 0.0);
-  checker.visit(model.loads);
-  checker.visit(model.joints);
-  checker.visit(model.signals);
+  const RangeChecker checker(model.simulation ? model.simulation->duration : 0.0);
+  const base::Member description = model::description_member(model);
+  for (const char* list : {"loads", "joints", "signals"}) {
+    checker.visit(model::field_member(description, list));
+  }
 }
 
 }  // namespace buckens::model_file

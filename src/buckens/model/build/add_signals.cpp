@@ -3,14 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
+#include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/base/visit_fields.h"
+#include "buckens/base/field.h"
 #include "buckens/model/build/add_joint_law.h"
 #include "buckens/model/function_signal.h"
+#include "buckens/model/spec/description_member.h"
 
 namespace buckens::model {
 
@@ -174,21 +176,28 @@ class Sorter {
 
   /// Whether a force law follows a signal.
   bool law_uses(const std::string& load, const std::string& signal) const {
-    bool uses = false;
-    const auto look = [&](const auto& field) {
-      using T = std::decay_t<decltype(field.member)>;
-      if constexpr (std::is_same_v<T, base::SignalLaw>) uses = uses || field.member.uses(signal);
-      if constexpr (std::is_same_v<T, std::optional<base::SignalLaw>>) {
-        uses = uses || (field.member && field.member->uses(signal));
+    const auto known = laws_.try_emplace(load);
+    if (known.second) known.first->second = laws_of(load);
+    return std::any_of(known.first->second.begin(), known.first->second.end(),
+                       [&](const base::SignalLaw* law) { return law->uses(signal); });
+  }
+
+  /// The numbers of a load, or of a joint with a force law, that may follow signals.
+  std::vector<const base::SignalLaw*> laws_of(const std::string& load) const {
+    std::vector<const base::SignalLaw*> out;
+    const base::Member description = description_member(description_);
+    for (const char* list : {"loads", "joints"}) {
+      for (const base::Member& entry : field_member(description, list).parts()) {
+        if (*entry.type->name(entry.at) != load) continue;
+        for (const base::Field& field : kind_member(entry).fields()) {
+          const auto* optional = field.member.get<std::optional<base::SignalLaw>>();
+          if (optional != nullptr && *optional) out.push_back(&**optional);
+          if (const auto* law = field.member.get<base::SignalLaw>()) out.push_back(law);
+        }
+        return out;
       }
-    };
-    const auto look_at = [&](const auto& kind) { base::visit_fields(kind, look); };
-    if (const auto* spec = base::find_named(description_.loads, load)) {
-      std::visit(look_at, spec->kind);
-    } else if (const auto* joint = base::find_named(description_.joints, load)) {
-      std::visit(look_at, joint->kind);
     }
-    return uses;
+    return out;
   }
 
   void visit(std::size_t k) {
@@ -221,6 +230,8 @@ class Sorter {
   Model& model_;
   std::vector<Mark> mark_;
   std::vector<std::size_t> path_;
+  mutable std::map<std::string, std::vector<const base::SignalLaw*>>
+      laws_;  ///< by load, once asked
 };
 
 }  // namespace

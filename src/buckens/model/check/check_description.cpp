@@ -2,47 +2,37 @@
 #include "buckens/model/check/check_description.h"
 
 #include <cstddef>
-#include <type_traits>
-#include <variant>
+#include <memory>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/base/field_types.h"
-#include "buckens/base/visit_fields.h"
+#include "buckens/base/field.h"
 #include "buckens/model/check/marker_names.h"
 #include "buckens/model/check/range.h"
-#include "buckens/model/check/spec_findings.h"
+#include "buckens/model/check/record_rules.h"
+#include "buckens/model/spec/description_member.h"
 
 namespace buckens::model {
 
 namespace {
 
-/// The numbers of a field, empty for any other kind of field.
-template <class T>
-std::vector<double> numbers_in(const T& member) {
-  if constexpr (std::is_arithmetic_v<T>) {
-    return {static_cast<double>(member)};
-  } else if constexpr (std::is_same_v<T, Eigen::Vector3d>) {
-    return {member.x(), member.y(), member.z()};
-  } else if constexpr (base::kIsArray<T>) {
-    std::vector<double> out;
-    for (const auto& entry : member) {
-      for (const double number : numbers_in(entry)) out.push_back(number);
-    }
-    return out;
-  } else {
-    return {};
-  }
-}
+using Form = base::MemberType::Form;
 
-/// The numbers of a record that was left alone, field by field.
-template <class T>
-std::vector<std::vector<double>> defaults_of() {
-  const T fresh{};
-  std::vector<std::vector<double>> out;
-  base::visit_fields(fresh, [&](const auto& field) { out.push_back(numbers_in(field.member)); });
+/// The numbers of a field, empty for any other kind of field.
+std::vector<double> numbers_in(const base::Member& member) {
+  if (const double* number = member.get<double>()) return {*number};
+  if (const int* number = member.get<int>()) return {static_cast<double>(*number)};
+  if (const bool* truth = member.get<bool>()) return {*truth ? 1.0 : 0.0};
+  if (const auto* vector = member.get<Eigen::Vector3d>()) {
+    return {vector->x(), vector->y(), vector->z()};
+  }
+  std::vector<double> out;
+  if (member.type->form() != Form::array) return out;
+  for (const base::Member& entry : member.parts()) {
+    for (const double number : numbers_in(entry)) out.push_back(number);
+  }
   return out;
 }
 
@@ -56,27 +46,24 @@ class Walker {
 
   /// @param is_given whether the record was written down; false where that cannot be known. Then a
   ///        number that stays at its default counts as not given, required or not.
-  template <base::HasFields T>
-  void record(const std::string& path, const T& spec, bool is_given = true) {
+  void record(const std::string& path, const base::Member& spec, bool is_given = true) {
     const SourceLocation outer = where;
-    if constexpr (requires { spec.where; }) {
-      if (!spec.where.empty()) where = spec.where;
+    if (const SourceLocation* own = spec.type->where(spec.at)) {
+      if (!own->empty()) where = *own;
     }
-    const std::vector<std::vector<double>> defaults = defaults_of<T>();
+    const std::shared_ptr<void> fresh = spec.type->make();
+    const std::vector<base::Field> defaults = spec.type->fields(fresh.get());
     std::size_t index = 0;
-    base::visit_fields(spec, [&](const auto& field) {
-      const std::vector<double>& standard = defaults[index++];
+    for (const base::Field& field : spec.fields()) {
+      const std::vector<double> standard = numbers_in(defaults[index++].member);
       const bool is_required = is_given && field.note.is_required;
       if (found || (!is_required && !standard.empty() && standard == numbers_in(field.member))) {
-        return;
+        continue;
       }
       is_given_ = is_given;
       value(join_path(path, field.note.name), field.note, field.member);
-    });
-    note(path, problem(spec, description_));
-    if constexpr (requires { problem_when_complete(spec, description_); }) {
-      note(path, problem_when_complete(spec, description_));
     }
+    note(path, record_problem(spec, description_));
     if (!found) where = outer;
   }
 
@@ -85,7 +72,7 @@ class Walker {
     if (!found) found = under(path, one);
   }
 
-  void value(const std::string& path, const base::FieldNote& field, double member) {
+  void number(const std::string& path, const base::FieldNote& field, double member) {
     // A word such as `auto` stands for zero.
     if (!field.word.empty() && member == 0.0) return;
     if (const auto rule = broken_rule(field, member)) {
@@ -93,56 +80,81 @@ class Walker {
     }
   }
 
-  template <class T>
-  void value(const std::string& path, const base::FieldNote& field, const T& member) {
+  void value(const std::string& path, const base::FieldNote& field, const base::Member& member) {
     if (found) return;
-    if constexpr (std::is_same_v<T, base::SignalLaw>) {
-      if (const std::optional<double> number = member.number()) value(path, field, *number);
-    } else if constexpr (std::is_same_v<T, base::MarkerRef>) {
-      if (member.body.empty()) return;  // not given
-      note(path, marker_problem(member, description_));
-      if (found && !member.where.empty()) where = member.where;
-    } else if constexpr (std::is_same_v<T, DeflectionBase>) {
-      if (member == DeflectionBase::other) value(path, field, member.marker);
-    } else if constexpr (std::is_same_v<T, Eigen::Vector3d>) {
-      for (int i = 0; i < 3; ++i) value(fmt::format("{}.{}", path, i), field, member[i]);
-    } else if constexpr (base::kIsOptional<T>) {
-      if (member) entry(path, field, *member);
-    } else if constexpr (base::kIsReference<T>) {
-      if (field.is_required || !member.name.empty()) record(path, member.value);
-    } else if constexpr (base::kIsVariant<T>) {
-      std::visit([&]<class A>(const A& kind) { alternative(join_path(path, A::kKey), kind); },
-                 member);
-    } else if constexpr (base::kIsNamedList<T>) {
-      for (const auto& entry : member) record(join_path(path, entry.name), entry);
-    } else if constexpr (base::kIsArray<T> || base::kIsVector<T>) {
-      for (std::size_t i = 0; i < member.size(); ++i) {
-        entry(fmt::format("{}.{}", path, i), field, member[i]);
+    switch (member.type->form()) {
+      case Form::value:
+        return simple_value(path, field, member);
+      case Form::choice:
+        return;
+      case Form::record:
+        return record(path, member, field.is_required);
+      case Form::optional:
+        for (const base::Member& part : member.parts()) entry(path, field, part);
+        return;
+      case Form::reference:
+        if (field.is_required || !member.type->name(member.at)->empty()) {
+          record(path, member.parts().front());
+        }
+        return;
+      case Form::variant: {
+        // The alternative is written down if the record around it is.
+        const std::string key = member.type->alternatives()[member.type->index(member.at)].key;
+        return record(join_path(path, key), member.parts().front(), is_given_);
       }
-    } else if constexpr (base::HasFields<T>) {
-      record(path, member, field.is_required);
-    } else if constexpr (std::is_same_v<T, int>) {
-      value(path, field, static_cast<double>(member));
+      case Form::array:
+      case Form::list:
+        return items(path, field, member.parts());
+    }
+  }
+
+  void simple_value(const std::string& path, const base::FieldNote& field,
+                    const base::Member& member) {
+    if (const auto* real = member.get<double>()) number(path, field, *real);
+    if (const auto* integer = member.get<int>()) number(path, field, *integer);
+    if (const auto* law = member.get<base::SignalLaw>()) {
+      if (const std::optional<double> constant = law->number()) number(path, field, *constant);
+    }
+    if (const auto* vector = member.get<Eigen::Vector3d>()) {
+      for (int i = 0; i < 3; ++i) number(fmt::format("{}.{}", path, i), field, (*vector)[i]);
+    }
+    if (const auto* marker = member.get<base::MarkerRef>()) look_for(path, *marker);
+    const auto* deflection = member.get<DeflectionBase>();
+    if (deflection != nullptr && *deflection == DeflectionBase::other) {
+      look_for(path, deflection->marker);
+    }
+  }
+
+  void look_for(const std::string& path, const base::MarkerRef& marker) {
+    if (found || marker.body.empty()) return;  // not given
+    note(path, marker_problem(marker, description_));
+    if (found && !marker.where.empty()) where = marker.where;
+  }
+
+  void items(const std::string& path, const base::FieldNote& field,
+             const std::vector<base::Member>& members) {
+    for (std::size_t i = 0; i < members.size() && !found; ++i) {
+      const base::Member& item = members[i];
+      const bool is_record = item.type->form() == Form::record;
+      if (is_record && item.type->has_name()) {
+        record(join_path(path, *item.type->name(item.at)), item);
+      } else {
+        entry(fmt::format("{}.{}", path, i), field, item);
+      }
     }
   }
 
   /// A value that somebody wrote down.
-  template <class T>
-  void entry(const std::string& path, const base::FieldNote& field, const T& member) {
+  void entry(const std::string& path, const base::FieldNote& field, const base::Member& member) {
     if (found) return;
-    if constexpr (base::kIsReference<T>) {
-      record(path, member.value);
-    } else if constexpr (base::HasFields<T>) {
-      record(path, member);
-    } else {
-      value(path, field, member);
+    switch (member.type->form()) {
+      case Form::reference:
+        return record(path, member.parts().front());
+      case Form::record:
+        return record(path, member);
+      default:
+        return value(path, field, member);
     }
-  }
-
-  /// The alternative of a variant is written down if the record around it is.
-  template <class A>
-  void alternative(const std::string& path, const A& kind) {
-    if (!found) record(path, kind, is_given_);
   }
 
   const ModelDescription& description_;
@@ -151,7 +163,7 @@ class Walker {
 
 Walker walked(const ModelDescription& description) {
   Walker walker(description);
-  walker.record("", description);
+  walker.record("", description_member(description));
   return walker;
 }
 

@@ -2,13 +2,13 @@
 #include "buckens/model/check/event_parameters.h"
 
 #include <optional>
-#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "buckens/base/nearest.h"
 #include "buckens/model/check/range.h"
+#include "buckens/model/spec/description_member.h"
 
 namespace buckens::model {
 
@@ -21,41 +21,29 @@ struct Parameter {
   base::SignalLaw* law;  ///< null: not given
 };
 
-/// Collects those of one load or joint.
-class Collector {
- public:
-  Collector(std::string path, std::vector<Parameter>& out) : path_(std::move(path)), out_(out) {}
-
-  template <class T>
-  void operator()(const base::Field<T>& field) {
-    base::SignalLaw* law = nullptr;
-    if constexpr (std::is_same_v<T, base::SignalLaw>) {
-      law = &field.member;
-    } else if constexpr (std::is_same_v<T, std::optional<base::SignalLaw>>) {
-      law = field.member ? &*field.member : nullptr;
-    } else {
-      return;
+/// Adds those of one kind of load or joint.
+void collect(const std::string& path, const base::Member& kind, std::vector<Parameter>& out) {
+  for (base::Field& field : kind.fields()) {
+    base::SignalLaw* law = field.member.get<base::SignalLaw>();
+    if (auto* given = field.member.get<std::optional<base::SignalLaw>>()) {
+      law = *given ? &**given : nullptr;
+    } else if (law == nullptr) {
+      continue;
     }
-    out_.push_back({path_ + "." + field.note.name, field.note, law});
+    out.push_back({path + "." + field.note.name, std::move(field.note), law});
   }
-
- private:
-  std::string path_;
-  std::vector<Parameter>& out_;
-};
+}
 
 /// Drives are told by their laws, and their joints close with these: they are no force laws.
-std::vector<Parameter> parameters_of(ModelDescription& model) {
+std::vector<Parameter> parameters_of(const base::Member& model) {
   std::vector<Parameter> out;
-  for (loads::LoadSpec& load : model.loads) {
-    Collector collector("loads." + load.name, out);
-    std::visit([&](auto& kind) { kind.fields(collector); }, load.kind);
+  for (const base::Member& load : field_member(model, "loads").parts()) {
+    collect("loads." + *load.type->name(load.at), kind_member(load), out);
   }
-  for (joints::JointSpec& joint : model.joints) {
-    auto* bushing = std::get_if<joints::BushingSpec>(&joint.kind);
-    if (bushing == nullptr) continue;
-    Collector collector("joints." + joint.name, out);
-    bushing->fields(collector);
+  for (const base::Member& joint : field_member(model, "joints").parts()) {
+    const base::Member kind = kind_member(joint);
+    if (!kind.type->is<joints::BushingSpec>()) continue;
+    collect("joints." + *joint.type->name(joint.at), kind, out);
   }
   return out;
 }
@@ -82,8 +70,7 @@ std::string unknown_text(const std::string& path, const std::vector<Parameter>& 
 
 Found parameter_problem(const SettingChange& change, const ModelDescription& model) {
   if (base::find_named(model.signals, change.name) != nullptr) return std::nullopt;  // made already
-  // Only looked at: the collector hands out what could be written.
-  const std::vector<Parameter> known = parameters_of(const_cast<ModelDescription&>(model));
+  const std::vector<Parameter> known = parameters_of(description_member(model));
   const Parameter* found = nullptr;
   for (const Parameter& one : known) {
     if (one.path == change.name) found = &one;
@@ -117,7 +104,7 @@ void make_settings_of_parameters(ModelDescription& model) {
       if (!names_parameter(change) || base::find_named(model.signals, change.name) != nullptr) {
         continue;
       }
-      for (Parameter& one : parameters_of(model)) {
+      for (Parameter& one : parameters_of(description_member(model))) {
         if (one.path != change.name) continue;
         SignalSpec signal;
         signal.name = change.name;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "buckens/model/check/body_extent.h"
+#include "buckens/model/spec/description_member.h"
 
 namespace buckens::model {
 
@@ -49,23 +50,28 @@ constexpr Candidate kDensityUnits[] = {{"g/cm^3", 1e3, 100.0, 23e3},
                                        {"g/mm^3", 1e6, 100.0, 23e3}};
 constexpr Candidate kLengthUnits[] = {{"mm", 1e-3, 1e-3, 50.0}, {"um", 1e-6, 1e-5, 1.0}};
 
+using Form = base::MemberType::Form;
+
 /// Visits all fields of a description with their paths.
 class Doubts {
  public:
-  std::vector<Doubt> run(ModelDescription& model) {
-    model.fields(*this);
+  std::vector<Doubt> run(const base::Member& description) {
+    visit_fields(description);
     return std::move(out_);
   }
 
-  template <class T>
-  void operator()(const base::Field<T>& field) {
+ private:
+  void visit_fields(const base::Member& record) {
+    for (const base::Field& field : record.fields()) visit_field(field);
+  }
+
+  void visit_field(const base::Field& field) {
     const base::Dimension dimension = dimension_;
     dimension_ = field.note.dimension;
     below(field.note.name, [&] { visit(field.member); });
     dimension_ = dimension;
   }
 
- private:
   template <class Work>
   void below(const std::string& key, Work&& work) {
     const std::size_t length = path_.size();
@@ -74,68 +80,75 @@ class Doubts {
     path_.resize(length);
   }
 
-  // ---- values by their kind
-  void visit(double& value) {
-    if (dimension_ == base::kAngle) look_at_angle(value);
-  }
-  void visit(Vector3d& value) {
-    for (int k = 0; k < 3; ++k) below(fmt::to_string(k), [&] { visit(value[k]); });
-  }
-  void visit(base::TimeLaw& law) {
-    double value = law.is_constant() ? law.value(0) : 0.0;
-    visit(value);
-  }
-  void visit(base::SignalLaw& law) {
-    if (!law.formula) visit(law.law);
-  }
-  void visit(base::Characteristic&) {}
-  void visit(fem::MaterialSpec& material) { look_at_material(material); }
-  void visit(fem::DampingSpec& damping) { look_at_damping(damping); }
-  void visit(body::BodySpec& body) {
-    if (body.like.empty()) {
-      body.fields(*this);
-      look_at_size(body);
-    } else {
-      below("at", [&] { visit(body.at); });  // the rest is reported for the other body
+  // ---- members by their form
+  void visit(const base::Member& member) {
+    switch (member.type->form()) {
+      case Form::value:
+        return look_at_value(member);
+      case Form::choice:
+        return;
+      case Form::record:
+        return visit_record(member);
+      case Form::reference:
+        if (!member.type->name(member.at)->empty()) return;  // reported where it is defined
+        [[fallthrough]];
+      case Form::optional:
+        for (const base::Member& part : member.parts()) visit(part);
+        return;
+      case Form::variant:
+        return below(member.type->alternatives()[member.type->index(member.at)].key,
+                     [&] { visit(member.parts().front()); });
+      case Form::array:
+      case Form::list:
+        return visit_items(member.parts());
     }
   }
-  template <class T>
-  void visit(base::Reference<T>& reference) {
-    if (reference.name.empty()) visit(reference.value);
-  }
-  template <class T>
-  void visit(std::optional<T>& value) {
-    if (value) visit(*value);
-  }
-  template <class... T>
-  void visit(std::variant<T...>& value) {
-    std::visit(
-        [this]<class One>(One& alternative) { below(One::kKey, [&] { visit(alternative); }); },
-        value);
-  }
-  template <class T, std::size_t n>
-  void visit(std::array<T, n>& items) {
-    for (std::size_t k = 0; k < n; ++k) below(fmt::to_string(k), [&] { visit(items[k]); });
-  }
-  template <class T>
-  void visit(std::vector<T>& items) {
+
+  void visit_items(const std::vector<base::Member>& items) {
     for (std::size_t k = 0; k < items.size(); ++k) {
-      std::string key = fmt::to_string(k);
-      if constexpr (requires { items[k].name; }) key = items[k].name;
-      below(key, [&] { visit(items[k]); });
+      const std::string* name = items[k].type->name(items[k].at);
+      below(name == nullptr ? fmt::to_string(k) : *name, [&] { visit(items[k]); });
     }
   }
-  template <class T>
-  void visit(T& value) {
-    if constexpr (requires { value.fields(*this); }) {
-      const SourceLocation where = where_;
-      if constexpr (requires { value.where; }) where_ = value.where;
-      value.fields(*this);
-      where_ = where;
+
+  void visit_record(const base::Member& record) {
+    if (const auto* material = record.get<fem::MaterialSpec>()) return look_at_material(*material);
+    if (const auto* damping = record.get<fem::DampingSpec>()) return look_at_damping(*damping);
+    if (const auto* body = record.get<body::BodySpec>()) return visit_body(record, *body);
+    const SourceLocation where = where_;
+    if (const SourceLocation* own = record.type->where(record.at)) where_ = *own;
+    visit_fields(record);
+    where_ = where;
+    const auto* mesh = record.get<fem::MeshSpec>();
+    if (mesh != nullptr && mesh->imported) look_at_file(*mesh);
+  }
+
+  void visit_body(const base::Member& record, const body::BodySpec& body) {
+    if (body.like.empty()) {
+      visit_fields(record);
+      look_at_size(body);
+      return;
     }
-    if constexpr (std::is_same_v<T, fem::MeshSpec>) {
-      if (value.imported) look_at_file(value);
+    // The rest is reported for the other body.
+    for (const base::Field& field : record.fields()) {
+      if (field.note.name == "at") visit_field(field);
     }
+  }
+
+  void look_at_value(const base::Member& member) {
+    if (dimension_ != base::kAngle) return;
+    if (const auto* number = member.get<double>()) look_at_angle(*number);
+    if (const auto* law = member.get<base::TimeLaw>()) look_at_law(*law);
+    if (const auto* law = member.get<base::SignalLaw>()) {
+      if (!law->formula) look_at_law(law->law);
+    }
+    if (const auto* vector = member.get<Vector3d>()) {
+      for (int k = 0; k < 3; ++k) below(fmt::to_string(k), [&] { look_at_angle((*vector)[k]); });
+    }
+  }
+
+  void look_at_law(const base::TimeLaw& law) {
+    if (law.is_constant()) look_at_angle(law.value(0));
   }
 
   // ---- what is implausible
@@ -177,7 +190,7 @@ class Doubts {
     }
   }
 
-  void look_at_material(fem::MaterialSpec& material) {
+  void look_at_material(const fem::MaterialSpec& material) {
     const SourceLocation where = where_;
     where_ = material.where;
     look_at_modulus("E", material.E);
@@ -248,8 +261,7 @@ class Doubts {
 }  // namespace
 
 std::vector<Doubt> doubtful_values(const ModelDescription& description) {
-  ModelDescription copy = description;  // field lists return mutable members
-  return Doubts().run(copy);
+  return Doubts().run(description_member(description));
 }
 
 }  // namespace buckens::model

@@ -9,13 +9,9 @@ namespace buckens::model {
 /// Directions must not be zero.
 Found axis_problem(const Eigen::Vector3d& axis);
 
-/// What is wrong with a spec whose fields are each valid; field paths start in the spec.
-/// Most specs have no such rules.
-/// @param model what the spec may refer to: everything before it in the model file
-template <class T>
-Found problem(const T& /*spec*/, const ModelDescription& /*model*/) {
-  return std::nullopt;
-}
+// What is wrong with a spec whose fields are each valid; field paths start in the spec. Most specs
+// have no such rules. `model` has what the spec may refer to: everything before it in the model
+// file. record_rules.cpp lists the specs that have some.
 
 Found problem(const fem::DampingSpec& spec, const ModelDescription& model);
 Found problem(const fem::TubeSpec& spec, const ModelDescription& model);

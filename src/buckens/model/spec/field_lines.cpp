@@ -3,14 +3,13 @@
 
 #include <array>
 #include <optional>
-#include <type_traits>
-#include <variant>
 
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/base/visit_fields.h"
+#include "buckens/base/field.h"
 #include "buckens/model/function_signal.h"
+#include "buckens/model/spec/description_member.h"
 
 namespace buckens::model {
 
@@ -19,47 +18,71 @@ namespace {
 /// The shortest text that gives the same bits again.
 std::string text_of(double value) { return fmt::format("{}", value); }
 
-struct AnyFieldVisitor {
-  template <class T>
-  void operator()(const base::Field<T>&) {}
-};
-
-template <class T>
-concept HasFieldList = requires(T& spec, AnyFieldVisitor& visit) {
-  spec.fields(visit);
-};
-
 /// Collects lines below a path.
 class LineCollector {
  public:
   LineCollector(std::vector<std::string>& lines, double duration)
       : lines_(lines), duration_(duration) {}
 
-  template <class T>
-  void add(const std::string& path, const T& value) {
-    if constexpr (std::is_same_v<T, bool>) {
-      put(path, value ? "on" : "off");
-    } else if constexpr (std::is_enum_v<T>) {
-      put(path, choice_names(T{})[static_cast<std::size_t>(value)]);
-    } else if constexpr (std::is_same_v<T, int>) {
-      put(path, std::to_string(value));
-    } else if constexpr (HasFieldList<T>) {
-      fields_in(path, value);
-    } else {
-      add_special(path, value);
+  void add(const std::string& path, const base::Member& member) {
+    using Form = base::MemberType::Form;
+    switch (member.type->form()) {
+      case Form::value:
+        return add_value(path, member);
+      case Form::choice:
+        return put(path, member.type->choices()[member.type->index(member.at)]);
+      case Form::record:
+        for (const base::Field& field : member.fields()) {
+          add(field.note.name.empty() ? path : path + "." + field.note.name, field.member);
+        }
+        return;
+      case Form::variant: {
+        const std::string key = member.type->alternatives()[member.type->index(member.at)].key;
+        return add(path + "." + key, member.parts().front());
+      }
+      case Form::optional:
+      case Form::reference:
+        for (const base::Member& part : member.parts()) add(path, part);
+        return;
+      case Form::array:
+      case Form::list:
+        return add_items(path, member.parts());
     }
   }
 
  private:
-  template <class T>
-  void fields_in(const std::string& path, const T& value) {
-    base::visit_fields(value, [&](const auto& field) {
-      add(field.note.name.empty() ? path : path + "." + field.note.name, field.member);
-    });
+  void add_items(const std::string& path, const std::vector<base::Member>& items) {
+    for (std::size_t k = 0; k < items.size(); ++k) {
+      if (const std::string* name = items[k].type->name(items[k].at)) {
+        put(path + "." + *name, "");
+        add(path + "." + *name, items[k]);
+      } else {
+        add(fmt::format("{}.{}", path, k), items[k]);
+      }
+    }
   }
 
   void put(const std::string& path, const std::string& text) {
     lines_.push_back(path.substr(path.front() == '.' ? 1 : 0) + ": " + text);
+  }
+
+  void add_value(const std::string& path, const base::Member& member) {
+    if (const auto* truth = member.get<bool>()) put(path, *truth ? "on" : "off");
+    if (const auto* number = member.get<int>()) put(path, std::to_string(*number));
+    add_if<double>(path, member);
+    add_if<std::string>(path, member);
+    add_if<Eigen::Vector3d>(path, member);
+    add_if<base::MarkerRef>(path, member);
+    add_if<DeflectionBase>(path, member);
+    add_if<body::FrameDivision>(path, member);
+    add_if<PositionLaw>(path, member);
+    add_if<base::TimeLaw>(path, member);
+    add_if<base::SignalLaw>(path, member);
+    add_if<base::Characteristic>(path, member);
+  }
+  template <class T>
+  void add_if(const std::string& path, const base::Member& member) {
+    if (const T* value = member.get<T>()) add_special(path, *value);
   }
 
   void add_special(const std::string& path, double value) { put(path, text_of(value)); }
@@ -114,42 +137,6 @@ class LineCollector {
     }
   }
 
-  template <class T>
-  void add_special(const std::string& path, const std::optional<T>& value) {
-    if (value) add(path, *value);
-  }
-  template <class T>
-  void add_special(const std::string& path, const base::Reference<T>& value) {
-    add(path, value.value);
-  }
-  template <class... T>
-  void add_special(const std::string& path, const std::variant<T...>& value) {
-    std::visit(
-        [&](const auto& alternative) {
-          add(path + "." + std::remove_cvref_t<decltype(alternative)>::kKey, alternative);
-        },
-        value);
-  }
-  template <class T, std::size_t n>
-  void add_special(const std::string& path, const std::array<T, n>& values) {
-    add_items(path, values);
-  }
-  template <class T>
-  void add_special(const std::string& path, const std::vector<T>& values) {
-    add_items(path, values);
-  }
-  template <class List>
-  void add_items(const std::string& path, const List& values) {
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      if constexpr (requires { values[k].name; }) {
-        put(path + "." + values[k].name, "");
-        add(path + "." + values[k].name, values[k]);
-      } else {
-        add(fmt::format("{}.{}", path, k), values[k]);
-      }
-    }
-  }
-
   std::vector<std::string>& lines_;
   double duration_;
 };
@@ -159,7 +146,7 @@ class LineCollector {
 std::vector<std::string> field_lines(const ModelDescription& description) {
   std::vector<std::string> all;
   // Laws are told by their values within the same second, however long the run is.
-  LineCollector(all, 1.0).add("", description);
+  LineCollector(all, 1.0).add("", description_member(description));
   std::vector<std::string> out;
   for (std::string& line : all) {
     const bool is_left_out = line.starts_with("title:") || line.starts_with("base:") ||

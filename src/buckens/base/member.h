@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <typeinfo>
+#include <vector>
+
+#include "buckens/base/source_location.h"
+
+namespace buckens::base {
+
+class MemberType;
+struct Field;
+
+/// A member of a spec whose type is known only while the program runs.
+///
+/// What walks through field lists (reader, checks, schema, comparison) is written once for members,
+/// and not compiled anew for every spec. Who has a Member of a constant spec must not change it.
+struct Member {
+  void* at = nullptr;
+  const MemberType* type = nullptr;
+
+  /// The member itself if it is a T, or null.
+  template <class T>
+  T* get() const;
+
+  /// What an optional, a reference, an array, a list or a variant holds.
+  std::vector<Member> parts() const;
+  /// The lines of a record's field list.
+  std::vector<Field> fields() const;
+};
+
+/// Key and description of one alternative of a variant.
+struct AlternativeNote {
+  std::string key, doc;
+  const MemberType* type = nullptr;
+};
+
+/// What can be done with members of one type. Which functions make sense depends on the form; the
+/// others throw std::logic_error. A member is given by its address.
+class MemberType {
+ public:
+  enum class Form {
+    value,      ///< a number, a text, a law, …: see Member::get
+    choice,     ///< an enumeration
+    optional,   ///< one part or none
+    reference,  ///< a name or one part: Reference
+    array,      ///< a fixed number of parts
+    list,       ///< any number of parts
+    variant,    ///< one part out of several alternatives
+    record      ///< a spec with a field list
+  };
+
+  virtual Form form() const = 0;
+  virtual const std::type_info& id() const = 0;
+  template <class T>
+  bool is() const {
+    return id() == typeid(T);
+  }
+
+  // ---- optional, reference, array, list, variant
+  virtual std::size_t size(const void* member) const;
+  virtual Member part(void* member, std::size_t k) const;
+  virtual const MemberType& part_type() const;  ///< not of a variant
+  /// Makes a new part: of a list, behind the others; of a variant, as alternative k.
+  virtual Member add(void* member, std::size_t k = 0) const;
+  /// Adds `part` to a list, and leaves it moved from.
+  virtual void take(void* list, void* part) const;
+  virtual void clear(void* list) const;
+  virtual std::vector<AlternativeNote> alternatives() const;
+
+  // ---- variant, choice
+  /// Index of the alternative that is held, or of the word that was chosen.
+  virtual std::size_t index(const void* member) const;
+  virtual std::vector<std::string> choices() const;
+  virtual std::vector<std::string> planned() const;  ///< words that are not available yet
+  virtual void choose(void* choice, std::size_t k) const;
+
+  // ---- record
+  virtual std::shared_ptr<void> make() const;
+  virtual std::vector<Field> fields(void* record) const;
+  virtual bool has_name() const;
+  /// Whether names come from another program and may hold any characters.
+  virtual bool has_foreign_name() const;
+  virtual SourceLocation* where(void* record) const;  ///< null: keeps no place
+  /// Of a record that has one, or of a reference; null otherwise.
+  virtual std::string* name(void* member) const;
+
+ protected:
+  ~MemberType() = default;
+};
+
+template <class T>
+T* Member::get() const {
+  return type->is<T>() ? static_cast<T*>(at) : nullptr;
+}
+
+/// The type T as members have it. Defined in member_types.h, which is for the few sources that
+/// begin to walk: it visits the field lists of T and of all below.
+template <class T>
+const MemberType& type_of();
+
+template <class T>
+Member member_of(T& member) {
+  return {&member, &type_of<T>()};
+}
+
+}  // namespace buckens::base
