@@ -59,6 +59,20 @@ def test_a_body_that_sinks_is_told_with_the_joint(check, buckens, tmp_path):
     assert any("joint \"base\"" in text for text in summary["warnings"])
 
 
+def test_many_moved_bodies_are_told_in_a_few_lines(buckens, tmp_path):
+    # Thirteen bodies on one line, all joined to points at its begin: the k-th is moved by k/10 m.
+    count = 13
+    bodies = "".join(f"  b{k}: {{rigid: {{mass: 1, inertia: [1, 1, 1]}}, at: {{position: [{k / 10}, 0, 0]}}}}\n" for k in range(1, count + 1))
+    joints = "".join(f"  j{k}: {{spherical: {{between: [ground, b{k}/com]}}}}\n" for k in range(1, count + 1))
+    (tmp_path / "many.yaml").write_text(
+        f"buckens: 1\nbodies:\n{bodies}joints:\n{joints}simulation: {{duration: 1 ms, step: 1 ms}}\noutput: {{every: 1 ms}}\n")
+    told = buckens("run", "many.yaml", "-o", "out", "-q").must(0, "assembly moved body \"b1\"").err
+    assert told.count("assembly moved body") == 10
+    assert "assembly moved 3 more bodies; the farthest of all by 1.3 m" in told
+    listed = json.loads(buckens("check", "many.yaml", "--json").must(0).out)["assembly_moves"]
+    assert len(listed) == count
+
+
 def test_strict_assembly_refuses_large_moves_only(check, buckens, tmp_path):
     strict = CRANK.replace("planar: xy", "planar: xy\nassembly: strict")
     error = check(strict.replace("SHIFT", "5 mm"), code=3)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/analysis/initial/assembly_moves.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -19,6 +20,8 @@ namespace {
 constexpr double kLargeMove = 1e-3;
 // The same, below which a motion is rounding.
 constexpr double kNoMove = 1e-9;
+// Thousands of bodies in the wrong place are one mistake, not thousands.
+constexpr std::size_t kMostMovesTold = 10;
 
 /// A joint that is open with the bodies as placed.
 struct OpenJoint {
@@ -151,6 +154,8 @@ std::vector<AssemblyMove> assembly_moves(const model::Model& model, const model:
 std::vector<std::string> judge_assembly(const model::BuiltModel& built,
                                         const std::vector<AssemblyMove>& moves) {
   std::vector<std::string> out;
+  std::size_t count = 0;
+  double farthest = 0;
   for (const AssemblyMove& move : moves) {
     if (!move.is_large) continue;
     const std::string text =
@@ -158,7 +163,15 @@ std::vector<std::string> judge_assembly(const model::BuiltModel& built,
     if (built.description.assembly == model::AssemblyRule::strict) {
       throw ModelError(move.where, text + " (`assembly: strict` accepts no such motion)");
     }
+    farthest = std::max(farthest, move.translation.norm());
+    if (++count > kMostMovesTold) continue;
     out.push_back(move.where.empty() ? text : move.where.text() + ": " + text);
+  }
+  if (count > kMostMovesTold) {
+    out.push_back(fmt::format(
+        "assembly moved {} more bodies; the farthest of all by {:.4g} m. `buckens check "
+        "--json` lists them",
+        count - kMostMovesTold, farthest));
   }
   return out;
 }

@@ -34,7 +34,7 @@ struct AssemblyMove {
 /// @param assembled what assemble_positions() made of the bodies as placed, at the same time
 std::vector<AssemblyMove> assembly_moves(const model::Model& model, const model::State& assembled);
 
-/// Warnings about the large ones, naming body and joint.
+/// Warnings about the first large ones, naming body and joint, and how many more there are.
 /// @throws ModelError with the first of them if the model requests strict assembly
 std::vector<std::string> judge_assembly(const model::BuiltModel& built,
                                         const std::vector<AssemblyMove>& moves);
