@@ -9,8 +9,8 @@
 #include "buckens/analysis/simulation/simulation.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/log.h"
+#include "buckens/base/member_types.h"
 #include "buckens/base/version.h"
-#include "buckens/base/visit_fields.h"
 #include "buckens/model/build/function_signals.h"
 #include "buckens/model/builder.h"
 #include "buckens/model_file/load_model.h"
@@ -36,6 +36,8 @@ using run_store::RunDirectory;
 using run_store::RunReader;
 using run_store::write_state;
 
-using base::visit_fields;
+using base::Field;
+using base::Member;
+using base::member_of;
 
 }  // namespace buckens

@@ -47,10 +47,20 @@ bool runs_agree() {
          buckens::RunReader("out").times().size() == 11;
 }
 
+/// The fields of a spec with their keys and members.
+bool fields_are_there() {
+  buckens::loads::ForceSpec force;
+  for (const buckens::Field& field : buckens::member_of(force).fields()) {
+    if (field.note.name == "on") return field.member.get<buckens::base::MarkerRef>() == &force.on;
+  }
+  return false;
+}
+
 }  // namespace
 
 int main() {
-  if (!missing_run_is_refused() || !runs_agree() || std::strlen(buckens::kVersion) == 0) {
+  if (!fields_are_there() || !missing_run_is_refused() || !runs_agree() ||
+      std::strlen(buckens::kVersion) == 0) {
     std::puts("the installed library answers wrongly");
     return 1;
   }
