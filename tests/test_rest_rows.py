@@ -454,6 +454,26 @@ def test_frozen_friction_of_an_elastic_contact_holds_a_box(path):
     assert summary["trust"] == "ok"
 
 
+@pytest.mark.parametrize("among", [False, True])
+@pytest.mark.parametrize("angle", [0, 20])
+def test_a_box_held_by_friction_rocks_on_its_springs(buckens, tmp_path, angle, among):
+    """Friction holds two ways along the face and the turn about its normal, so that heaving and two ways of rocking are left."""
+    text = box(angle, "frozen", 0.9).replace("static: 0.9", "static: 0.9, stiffness: 1e6")
+    if among:
+        text = text.replace("contact: {between: [ground, box/m], shapes: [{plane: {}}, {box: [0.4, 0.3, 0.2]}]",
+                            "contacts: {among: [{on: ground, plane: {}}, {on: box/m, box: [0.4, 0.3, 0.2]}]").replace(", f: {contact: floor}", "")
+    (tmp_path / "box.yaml").write_text(text)
+    out = buckens("modes", "box.yaml", "--system", "--about", "static", "--json").must(0).json["analyses"][0]
+    k, weight = 4e6, 10 * G * math.cos(math.radians(angle))
+    height = 0.1 - weight / k
+    rocking = [math.sqrt((k * a**2 - weight * height) / (0.2 + 10 * height**2)) for a in (0.15, 0.2)]
+    expected = sorted([*rocking, math.sqrt(k / 10)])
+    assert out["rigid_modes"] == 0
+    # Friction tilts the box by 2e-5 rad, and so changes the height of the middle above the held corner by 1e-4 of it.
+    assert [mode["frequency"] * 2 * math.pi for mode in out["modes"]] == pytest.approx(expected, rel=1e-4)
+    assert not any("unstable" in note for note in out.get("notes", []))
+
+
 def test_a_truss_that_snaps_meets_a_stop(path):
     """Beyond its limit load the apex comes to rest on a stop: the load falls down to there, and then only presses on the stop."""
     text = (SOURCE / "examples" / "snap_through" / "snap_through.yaml").read_text()

@@ -12,6 +12,7 @@
 #include "buckens/analysis/initial/position_assembly.h"
 #include "buckens/analysis/statics/equilibrium.h"
 #include "buckens/analysis/vibration/body_vibration.h"
+#include "buckens/analysis/vibration/held_faces.h"
 #include "buckens/analysis/vibration/mode_damping.h"
 #include "buckens/analysis/vibration/system_pencil.h"
 #include "buckens/base/errors.h"
@@ -112,10 +113,11 @@ RestTangent SystemVibrations::tangent() {
   }
   ClosedRows closed{rest, stands_, {}};
   rest.open_unloaded(no_force_, closed.stands);
+  const std::vector<char> holds = rows_that_hold(rest, values, closed.stands, metric_);
   std::vector<int> candidates;
   std::vector<dynamics::SystemRow> rows = constraints.rows;
   for (std::size_t k = 0; k < rest.size(); ++k) {
-    if (closed.stands[k].regime == 0) continue;
+    if (closed.stands[k].regime == 0 || holds[k] == 0) continue;
     candidates.push_back(static_cast<int>(k));
     rows.push_back(values.rows[k]);
   }
