@@ -227,7 +227,7 @@ def broken(tmp_path, name, change):
     ("{plane: {}}, {surface: {}}", ["its body is rigid and has no mesh"]),
     ("{plane: {}}, {stl: {file: good.stl, unit: 1 m}}, exponent: 2", ["a plane and a mesh touch with an area"]),
     ("{stl: {file: good.stl, unit: 1 m}}, {sphere: 0.1}, modulus", ["Hertz has no force for a mesh and a sphere"]),
-    ("{stl: {file: good.stl, unit: 1 m}}, {cylinder: {radius: 0.1, length: 0.1}}, rigid", ["a mesh and a cylinder need a `stiffness`", "of a sphere or a plane with anything, of a capsule with a capsule, box, cylinder or mesh"]),
+    ("{bore: 1 m}, {stl: {file: good.stl, unit: 1 m}}, rigid", ["a bore and a mesh cannot touch", "mesh–cylinder"]),
 ])
 def test_bad_surfaces_are_refused(buckens, tmp_path, shapes, words):
     broken(tmp_path, "good.stl", lambda t: t)

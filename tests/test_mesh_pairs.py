@@ -152,7 +152,8 @@ output: {{every: 20 ms, sensors: {{p: {{position: drum}}, v: {{velocity: drum}},
 
 @pytest.mark.parametrize(("shapes_and_law", "words"), [
     (f"{BLOCK}], exponent: 1.5, stiffness: 1e6", ["a mesh and a mesh touch with an area", "remove `exponent`"]),
-    ("{cylinder: {radius: 50 mm, length: 0.1}}]", ["a mesh and a cylinder need a `stiffness`"]),
+    ("{socket: 50 mm}]", ["a mesh and a socket cannot touch", "mesh–cylinder"]),
+    ("{cylinder: {radius: 50 mm, length: 0.1}}], exponent: 1.5", ["without `stiffness` or `modulus` the contact is rigid"]),
     ("{stl: {file: block.stl, unit: 1 m, spacing: 1 um}}], stiffness: 1e6", ["block.stl", "`spacing` of 1e-06 m over 0.24 m²", "greater"]),
     ("{stl: {file: block.stl, unit: 1 m, spacing: -1 mm}}], stiffness: 1e6", ["spacing", "positive"]),
 ])

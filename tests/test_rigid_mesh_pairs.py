@@ -226,13 +226,6 @@ def test_thrown_boxes_come_to_rest_on_a_table(sensors, tmp_path, seed):
     assert min(abs(out["p.z"][-1] - side / 2) for side in sides) < G * 1e-6
 
 
-@pytest.mark.parametrize("other", ["{cylinder: {radius: 50 mm, length: 0.1}}"])
-def test_what_has_no_rigid_places_is_refused(buckens, tmp_path, other):
-    write(tmp_path, base=triangle_meshes.box(TABLE, 1))
-    (tmp_path / "pair.yaml").write_text(model(f"{BASE}, {other}", at="0, 0, 0.3"))
-    buckens("check", "pair.yaml").must(2, "pair.yaml:5", "a mesh and a cylinder need a `stiffness`", "boxes and meshes with each other")
-
-
 def test_what_overlaps_as_placed_is_refused(buckens, tmp_path):
     write(tmp_path, part=triangle_meshes.box([0.4, 0.3, 0.2], 2), base=triangle_meshes.box(TABLE, 2))
     (tmp_path / "deep.yaml").write_text(model(f"{BASE}, {PART}", at="0, 0, 0.099"))

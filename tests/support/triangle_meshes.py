@@ -110,3 +110,19 @@ def groove(length, width, cells):
     x, y = points[:, 0] * length, points[:, 1]
     y = numpy.where(numpy.abs(y) < 0.3 / cells + 1e-9, 0.0, y) if cells % 2 == 0 else y
     return numpy.stack([x, y * width, numpy.abs(y) * width], axis=1), triangles
+
+
+def tube(radius, length, sides, rows=5):
+    """A round bar along the y axis, with this many sides and triangles between as many rings and one more; closed by flat ends, whose borders are straight."""
+    angles = 2 * numpy.pi * numpy.arange(sides) / sides
+    ring = radius * numpy.stack([numpy.cos(angles), 0 * angles, numpy.sin(angles)], axis=1)
+    rings = [ring + [0, y, 0] for y in numpy.linspace(-length / 2, length / 2, rows + 1)]
+    points = numpy.concatenate([*rings, numpy.array([[0, -length / 2, 0], [0, length / 2, 0]])])
+    triangles = []
+    for k in range(sides):
+        a, b = k, (k + 1) % sides
+        for j in range(rows):
+            i, n = j * sides, (j + 1) * sides
+            triangles += [(a + i, a + n, b + i), (b + i, a + n, b + n)]
+        triangles += [(len(points) - 2, a, b), (len(points) - 1, b + rows * sides, a + rows * sides)]
+    return points, triangles

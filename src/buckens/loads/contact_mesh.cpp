@@ -250,6 +250,16 @@ void ContactMesh::nearest_of_colours(const Vector3d& point, double reach,
   }
 }
 
+spatial::TriangleList ContactMesh::flat_triangles() const {
+  spatial::TriangleList out;
+  for (const CurvedFacet& facet : facets_) {
+    const int first = static_cast<int>(out.points.size());
+    for (const Vector3d& x : facet.corner) out.points.push_back(x);
+    out.triangles.push_back({first, first + 1, first + 2});
+  }
+  return out;
+}
+
 spatial::TouchSurface::View ContactMesh::look(const Vector3d& point, int colour) const {
   CurvedFacet::Place best;
   best.square = HUGE_VAL;

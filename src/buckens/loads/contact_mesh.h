@@ -67,6 +67,12 @@ class ContactMesh {
   }
   /// @param index below num_facets()
   const CurvedFacet& facet(std::size_t index) const { return facets_[index]; }
+  /// @param facet below num_facets()
+  int patch(std::size_t facet) const { return patches_[facet]; }
+  /// Of a patch.
+  int colour(int patch) const { return colours_[static_cast<std::size_t>(patch)]; }
+  /// Its corners, in the order of its facets, each triangle with points of its own.
+  spatial::TriangleList flat_triangles() const;
   const BoxTree& tree() const { return tree_; }
   /// Around the flat triangles.
   const Eigen::AlignedBox3d& box() const { return box_; }

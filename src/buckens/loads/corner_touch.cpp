@@ -102,16 +102,11 @@ class CornerOnFaces final : public spatial::TouchFinder {
   }
 
   TouchSurface::View view_of(const Polyhedron::Sight& sight, const Vector3d& x) const {
+    if (!sight.is_across) return faces_->beside(sight.facet, x);
     TouchSurface::View out;
-    const CurvedFacet& facet = faces_->faces().facet(static_cast<std::size_t>(sight.facet));
+    const auto& corner = faces_->faces().corners(static_cast<std::size_t>(sight.facet));
     out.normal = faces_->normal(sight.facet);
-    out.distance = out.normal.dot(x - facet.corner[0]);
-    if (sight.is_across) return out;
-    const CurvedFacet::Place place = facet.nearest(x);
-    out.distance = std::sqrt(place.square);
-    if (!(out.distance > 0.0)) return out;
-    out.normal = (x - place.at) / out.distance;
-    out.curvature = facet.curvature(x, place);
+    out.distance = out.normal.dot(x - corner[0]);
     return out;
   }
 
@@ -126,17 +121,17 @@ class CornerOnFaces final : public spatial::TouchFinder {
 }  // namespace
 
 TouchFinders corners_on_faces(const std::shared_ptr<const Polyhedron>& faces,
-                              const std::shared_ptr<const Polyhedron>& corners, bool is_second) {
-  const std::vector<Polyhedron::Corner>& all = corners->corners();
+                              const std::vector<Polyhedron::Corner>& corners, double size,
+                              bool is_second) {
   std::vector<Vector3d> points;
-  for (const Polyhedron::Corner& corner : all) points.push_back(corner.at);
-  const std::size_t most = all.size() > kMostSingleCorners ? kCornerGroups : all.size();
-  const double size = std::min(faces->size(), corners->size());
+  for (const Polyhedron::Corner& corner : corners) points.push_back(corner.at);
+  const std::size_t most = points.size() > kMostSingleCorners ? kCornerGroups : points.size();
+  const double smaller = std::min(faces->size(), size);
   TouchFinders out;
   for (const std::vector<int>& group : far_groups(points, most)) {
     std::vector<Polyhedron::Corner> own;
-    for (const int k : group) own.push_back(all[static_cast<std::size_t>(k)]);
-    out.push_back(std::make_shared<CornerOnFaces>(faces, std::move(own), size, is_second));
+    for (const int k : group) own.push_back(corners[static_cast<std::size_t>(k)]);
+    out.push_back(std::make_shared<CornerOnFaces>(faces, std::move(own), smaller, is_second));
   }
   return out;
 }

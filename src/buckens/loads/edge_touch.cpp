@@ -25,7 +25,7 @@ namespace {
 // Of the smaller body, up to which edges are looked for inside the other one.
 constexpr double kDeepestEdge = 0.1;
 // Of the smaller body, by which places that touch nothing have to be nearer than those that may.
-constexpr double kBesideEdge = 3e-5;
+constexpr double kBesideCrossing = 3e-5;
 // Of the smaller body, up to which groups of edges are looked for; beyond, the distance of what is
 // around them says enough.
 constexpr double kReachOfGroups = 0.1;
@@ -61,7 +61,7 @@ class EdgesOverEdges {
     const double size = std::min(own_->size(), other_->size());
     // Where edges are short, corners between them are inside sooner than that.
     deepest_ = std::min({kDeepestEdge * size, longest(*own_), longest(*other_)});
-    beside_ = kBesideEdge * size;
+    beside_ = kBesideCrossing * size;
     same_ = std::max(own_->same(), other_->same());
   }
 

@@ -28,4 +28,9 @@ spatial::TouchFinders plane_touches(const spatial::TouchSurface& plane, const Co
 spatial::TouchFinders sphere_touches(const std::shared_ptr<const ContactMesh>& mesh, double radius,
                                      const Eigen::Vector3d& at);
 
+/// All places in which a capsule of M touches a mesh of F: both ends as spheres, its axis at each
+/// sharp edge or at the nearest of a group of them, and either half of it at curved patches.
+spatial::TouchFinders capsule_touches(const std::shared_ptr<const ContactMesh>& mesh,
+                                      const spatial::TouchSurface& capsule);
+
 }  // namespace buckens::loads

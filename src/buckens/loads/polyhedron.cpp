@@ -25,16 +25,6 @@ constexpr double kDip = 0.1;
 // Share by which a distance may differ from that along the normal and still be that.
 constexpr double kAcross = 1e-10;
 
-spatial::TriangleList triangles_of(const ContactMesh& mesh) {
-  spatial::TriangleList out;
-  for (std::size_t k = 0; k < mesh.num_facets(); ++k) {
-    const int first = static_cast<int>(out.points.size());
-    for (const Vector3d& x : mesh.corners(k)) out.points.push_back(x);
-    out.triangles.push_back({first, first + 1, first + 2});
-  }
-  return out;
-}
-
 Polyhedron::Corner corner_at(const MeshTopology& from, std::size_t point) {
   Polyhedron::Corner out{from.points[point], {}};
   for (int k = from.first_at[point]; k < from.first_at[point + 1]; ++k) {
@@ -58,7 +48,7 @@ bool Polyhedron::Edge::looks_out(const Vector3d& direction) const {
   return direction.dot(into[0]) <= kDip && direction.dot(into[1]) <= kDip;
 }
 
-Polyhedron::Polyhedron(const ContactMesh& mesh) : Polyhedron(triangles_of(mesh)) {}
+Polyhedron::Polyhedron(const ContactMesh& mesh) : Polyhedron(mesh.flat_triangles()) {}
 
 Polyhedron::Polyhedron(const spatial::TriangleList& list) : flat_(list, kNoBend) {
   const MeshTopology from(list, kNoBend, ContactMesh::kMostColours);
@@ -78,6 +68,18 @@ Polyhedron::Polyhedron(const spatial::TriangleList& list) : flat_(list, kNoBend)
   for (std::size_t p = 0; p < is_corner.size(); ++p) {
     if (is_corner[p] != 0) corners_.push_back(corner_at(from, p));
   }
+}
+
+spatial::TouchSurface::View Polyhedron::beside(int facet, const Vector3d& x) const {
+  const CurvedFacet& face = flat_.facet(static_cast<std::size_t>(facet));
+  const CurvedFacet::Place place = face.nearest(x);
+  spatial::TouchSurface::View out;
+  out.normal = normal(facet);
+  out.distance = std::sqrt(place.square);
+  if (!(out.distance > 0.0)) return out;
+  out.normal = (x - place.at) / out.distance;
+  out.curvature = face.curvature(x, place);
+  return out;
 }
 
 Polyhedron::Sight Polyhedron::see(const Vector3d& x, const Matrix3d& R, const Corner& corner,

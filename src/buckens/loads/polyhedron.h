@@ -42,6 +42,9 @@ class Polyhedron {
   /// @param deepest to which it is looked for inside [m]
   Sight see(const Eigen::Vector3d& x, const Eigen::Matrix3d& R, const Corner& corner,
             double deepest) const;
+  /// A facet as a point sees it that is beside it: its nearest place, whichever side that is seen
+  /// from. @param facet of faces()
+  spatial::TouchSurface::View beside(int facet, const Eigen::Vector3d& x) const;
   /// Whether a point is inside, or on the surface.
   bool holds(const Eigen::Vector3d& x) const { return flat_.nearest(x).distance <= same_; }
 

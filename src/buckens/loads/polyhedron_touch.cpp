@@ -32,9 +32,9 @@ std::shared_ptr<const Polyhedron> polyhedron_of(const ContactShape& shape) {
 
 TouchFinders polyhedron_touches(const std::shared_ptr<const Polyhedron>& first,
                                 const std::shared_ptr<const Polyhedron>& second) {
-  TouchFinders out = corners_on_faces(first, second, true);
-  for (const TouchFinders& more :
-       {corners_on_faces(second, first, false), edges_across(first, second)}) {
+  TouchFinders out = corners_on_faces(first, second->corners(), second->size(), true);
+  for (const TouchFinders& more : {corners_on_faces(second, first->corners(), first->size(), false),
+                                   edges_across(first, second)}) {
     out.insert(out.end(), more.begin(), more.end());
   }
   return out;

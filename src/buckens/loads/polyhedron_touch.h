@@ -17,9 +17,10 @@ using spatial::TouchFinders;
 
 /// Where sharp corners of one body touch faces of another: one finder for each, or for each group
 /// of them.
-/// @param is_second the corners are those of M
+/// @param size of the body with the corners [m], @param is_second it is M
 TouchFinders corners_on_faces(const std::shared_ptr<const Polyhedron>& faces,
-                              const std::shared_ptr<const Polyhedron>& corners, bool is_second);
+                              const std::vector<Polyhedron::Corner>& corners, double size,
+                              bool is_second);
 
 /// Where sharp edges of two bodies cross: two finders for each edge of the body that has fewer of
 /// them, or for each group of such edges, one towards either end.

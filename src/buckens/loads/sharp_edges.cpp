@@ -52,6 +52,7 @@ class EdgeChains {
   void add(std::size_t t, std::size_t k) {
     const int beyond = from_.neighbours[t][k];
     if (beyond >= 0 && beyond < static_cast<int>(t)) return;
+    if (beyond >= 0 && from_.patches[t] == from_.patches[static_cast<std::size_t>(beyond)]) return;
     const auto& corners = from_.triangles[t];
     EdgePiece out{corners[k], corners[(k + 1) % 3], {}};
     const Vector3d way = (point(out.to) - point(out.from)).normalized();
@@ -116,6 +117,13 @@ std::vector<char> corner_points(const MeshTopology& from) {
 
 std::vector<Polyhedron::Edge> sharp_edges(const MeshTopology& from) {
   return EdgeChains(from).join();
+}
+
+std::vector<Polyhedron::Edge> sharp_edges(const ContactMesh& mesh) {
+  // Its facets are those of the topology it was made from, whose patches hold here.
+  MeshTopology from(mesh.flat_triangles(), kFlatCorner, ContactMesh::kMostColours);
+  for (std::size_t t = 0; t < mesh.num_facets(); ++t) from.patches[t] = mesh.patch(t);
+  return sharp_edges(from);
 }
 
 }  // namespace buckens::loads

@@ -13,7 +13,11 @@ struct MeshTopology;
 /// or where an open surface ends.
 std::vector<char> corner_points(const MeshTopology& from);
 
-/// The edges that stand out; pieces that go on straight between corners are one edge.
+/// The edges between patches that stand out; pieces that go on straight between corners are one
+/// edge.
 std::vector<Polyhedron::Edge> sharp_edges(const MeshTopology& from);
+
+/// Those of a mesh, between its patches.
+std::vector<Polyhedron::Edge> sharp_edges(const ContactMesh& mesh);
 
 }  // namespace buckens::loads

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "buckens/spatial/capsule_touch.h"
+#include "buckens/spatial/place_along_axis.h"
 #include "buckens/spatial/segment_pair.h"
-#include "buckens/spatial/touch_features.h"
 
 namespace buckens::spatial {
 
@@ -15,9 +15,6 @@ namespace {
 
 // Looks along the axis on one side before the nearest place is refined.
 constexpr std::size_t kLooks = 12;
-constexpr int kMostRefinements = 60;
-// Of the parameter, which is of the order of one.
-constexpr double kRefined = 1e-15;
 
 /// Distance of the points of a segment from a ring, in its axes; x = r + s b.
 struct RingDistance {
@@ -54,21 +51,8 @@ struct RingDistance {
       return std::abs(from) == 1.0 || slope(from) == 0.0 ? from : to;
     }
     const double before = s[best > 0 ? best - 1 : 0], after = s[std::min(best + 1, kLooks)];
-    return refine(std::min(before, after), s[best], std::max(before, after));
-  }
-
-  /// Where the slope vanishes between both: by Newton's method, or halving.
-  double refine(double low, double s, double high) const {
-    for (int k = 0; k < kMostRefinements && high - low > kRefined; ++k) {
-      const auto view = ring.look(r + s * b);
-      const double now = view.normal.dot(b);
-      (now < 0.0 ? low : high) = s;
-      const double curve = b.dot(view.curvature * b);
-      if (std::abs(now) <= kRefined * curve) break;
-      const double next = s - now / curve;
-      s = curve > 0.0 && next > low && next < high ? next : 0.5 * (low + high);
-    }
-    return s;
+    return least_along([this](double at) { return ring.look(r + at * b); }, b,
+                       std::min(before, after), s[best], std::max(before, after));
   }
 };
 
@@ -99,18 +83,8 @@ class CapsuleOverRim final : public TouchFinder {
   void look_at(double s, const MarkerMotion& F, const MarkerMotion& M, TouchPlace& out) const {
     const Vector3d r = F.R.transpose() * (M.p - F.p);
     const Vector3d half = M.R * (capsule_.half_length * capsule_.axis);
-    const Vector3d b = F.R.transpose() * half;
-    MovingPoint point{M.p + s * half, M.v + M.w.cross(s * half)};
-    const TouchSurface::View view = ring_.look(r + s * b);
-    if (std::abs(s) < 1.0) {
-      // The axis stays at right angles to the normal.
-      const Vector3d own = F.R.transpose() * (point.rate - F.v - F.w.cross(point.x - F.p));
-      const Vector3d b_rate = F.R.transpose() * (M.w - F.w).cross(half);
-      const double curve = b.dot(view.curvature * b);
-      const double s_rate = -(b.dot(view.curvature * own) + view.normal.dot(b_rate)) / curve;
-      point.rate += s_rate * half;
-    }
-    set_sphere_at(view, F, point, capsule_.radius, out);
+    const TouchSurface::View view = ring_.look(r + s * (F.R.transpose() * half));
+    set_on_axis(view, F, capsule_, M, s, std::abs(s) < 1.0, out);
   }
 
   TouchSurface ring_, capsule_;

@@ -2,7 +2,7 @@
 #include "buckens/spatial/rigid_touch.h"
 
 #include "buckens/spatial/box_touch.h"
-#include "buckens/spatial/touch_features.h"
+#include "buckens/spatial/rim_touch.h"
 
 namespace buckens::spatial {
 
@@ -12,8 +12,6 @@ namespace {
 
 // Where the normal is opposite to the one as placed, by this much, its way there is not unique.
 constexpr double kOpposite = 1e-12;
-// Sine of the tilt below which the lowest point of a rim says nothing.
-constexpr double kUprightRim = 1e-6;
 
 }  // namespace
 
@@ -34,25 +32,10 @@ Vector3d TouchPlace::velocity(const MarkerMotion& F, const MarkerMotion& M) cons
 void RigidTouch::look_at_rim(const MarkerMotion& F, const MarkerMotion& M, TouchPlace& out) const {
   out.normal = F.R * data_.surface.axis;
   out.normal_rate = F.w.cross(out.normal);
-  const Vector3d axis = M.R * data_.axis;
-  const Vector3d axis_rate = M.w.cross(axis);
-  // Downhill within the end.
-  const double along = axis.dot(out.normal);
-  Vector3d down = along * axis - out.normal;
-  Vector3d down_rate;
-  const double tilt = down.norm();
-  if (tilt > kUprightRim) {
-    const double along_rate = axis_rate.dot(out.normal) + axis.dot(out.normal_rate);
-    down_rate = (along_rate * axis + along * axis_rate - out.normal_rate) / tilt;
-    down /= tilt;
-    down_rate -= down.dot(down_rate) * down;
-  } else {
-    down = M.R * data_.axis.unitOrthogonal();
-    down_rate = M.w.cross(down);
-  }
-  const Vector3d lever = M.R * data_.at;
-  out.place = M.p + lever + data_.radius * down;
-  out.place_rate = M.v + M.w.cross(lever) + data_.radius * down_rate;
+  const MovingPoint lowest =
+      lowest_of_rim({data_.at, data_.axis, data_.radius}, M, out.normal, out.normal_rate);
+  out.place = lowest.x;
+  out.place_rate = lowest.rate;
   out.gap = out.normal.dot(out.place - F.p);
 }
 

@@ -82,16 +82,20 @@ bool set_far_rim(const LinePoint& middle, double half_length, double inner, cons
 }
 
 /// Across both an edge and a rim: with the sign of the gap where that leads out of both bodies.
-/// @return false: their points are apart, or there is no such direction
-bool set_across(const SharpEdge& edge, const LinePoint& line, const RimPoint& rim,
-                const NearPoints& points, TouchPlace& out) {
+enum class Across { not_set, beside, out_of_both };
+/// @return not_set: their points are apart, or there is no such direction
+Across set_across(const SharpEdge& edge, const LinePoint& line, const RimPoint& rim,
+                  const NearPoints& points, TouchPlace& out) {
   Crossing crossing(line.along, line.along_rate(), rim.tangent, points.tangent_rate);
-  const Vector3d one = line.owner.R * edge.normals[0], other = line.owner.R * edge.normals[1];
-  if (!crossing.lead(one + other - rim.axis - rim.radial)) return false;
+  const Vector3d one = line.owner.R * edge.beyond[0], other = line.owner.R * edge.beyond[1];
+  if (!crossing.lead(one + other - rim.axis - rim.radial)) return Across::not_set;
   const bool leads_out =
       rim.sees(crossing.normal) &&
       std::min(crossing.normal.dot(one), crossing.normal.dot(other)) > -kOutOfCone;
-  return crossing.set(points.on_line, points.on_rim, leads_out, rim.radius, out);
+  if (!crossing.set(points.on_line, points.on_rim, leads_out, rim.radius, out)) {
+    return Across::not_set;
+  }
+  return leads_out ? Across::out_of_both : Across::beside;
 }
 
 /// How far a point is over the plane of a face or an end, and whether it is over the face.
@@ -119,9 +123,9 @@ struct OverFace {
 
 SharpEdge SharpEdge::of(const TouchSurface& box, int axis, double one, double other) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  const std::array<Vector3d, 2> normals = {one * Vector3d::Unit(u), other * Vector3d::Unit(v)};
-  return {box.half[u] * normals[0] + box.half[v] * normals[1], Vector3d::Unit(axis), box.half[axis],
-          normals};
+  const std::array<Vector3d, 2> beyond = {one * Vector3d::Unit(u), other * Vector3d::Unit(v)};
+  return {box.half[u] * beyond[0] + box.half[v] * beyond[1], Vector3d::Unit(axis), box.half[axis],
+          beyond};
 }
 
 void set_points(const MovingPoint& first, const MovingPoint& second, double radius,
@@ -148,22 +152,25 @@ void set_apart(const MarkerMotion& F, const MarkerMotion& M, TouchPlace& out) {
 
 namespace {
 
-/// @param place what finds the place on one side
+/// @param place what finds the place on one side, and its answer
+/// @return that of the place taken
 template <class Place>
-void set_side(double towards, double radius, Place place, TouchPlace& out) {
-  place(towards, out);
+bool set_side(double towards, double radius, Place place, TouchPlace& out) {
+  const bool answer = place(towards, out);
   TouchPlace other;
-  place(-towards, other);
-  if (other.gap < out.gap - kSidesApart * radius) out = other;
+  const bool other_answer = place(-towards, other);
+  if (!(other.gap < out.gap - kSidesApart * radius)) return answer;
+  out = other;
+  return other_answer;
 }
 
 }  // namespace
 
-void set_rim_over_edge(const SharpEdge& edge, const MarkerMotion& F, const Rim& rim,
+bool set_rim_over_edge(const SharpEdge& edge, const MarkerMotion& F, const Rim& rim,
                        const MarkerMotion& M, double towards, TouchPlace& out) {
   LinePoint line{F, F.p + F.R * edge.middle, F.R * edge.along, 0.0};
   RimPoint point(rim, M);
-  if (set_far_rim(line, edge.half_length, 0.0, point, out)) return;
+  if (set_far_rim(line, edge.half_length, 0.0, point, out)) return false;
   const auto place = [&](double side, TouchPlace& found) {
     point.turn_to(
         towards_line(point.axis, rim.radius, line.middle - point.centre, line.along, side));
@@ -174,11 +181,11 @@ void set_rim_over_edge(const SharpEdge& edge, const MarkerMotion& F, const Rim& 
       point.turn_to(point.nearest_to(line.x()));
     }
     const NearPoints points(line, point, is_free);
-    if (!is_free || !set_across(edge, line, point, points, found)) {
-      set_points(points.on_line, points.on_rim, 0.0, found);
-    }
+    const Across across = is_free ? set_across(edge, line, point, points, found) : Across::not_set;
+    if (across == Across::not_set) set_points(points.on_line, points.on_rim, 0.0, found);
+    return across == Across::out_of_both;
   };
-  set_side(towards, rim.radius, place, out);
+  return set_side(towards, rim.radius, place, out);
 }
 
 void set_rim_over_side(const TouchSurface& cylinder, const MarkerMotion& F, const Rim& rim,
@@ -196,17 +203,14 @@ void set_rim_over_side(const TouchSurface& cylinder, const MarkerMotion& F, cons
     } else {
       set_sphere_at(cylinder, F, points.on_rim, 0.0, found);
     }
+    return true;
   };
   set_side(towards, rim.radius, place, out);
 }
 
-void set_rim_over_face(const TouchSurface& solid, int axis, const MarkerMotion& F, const Rim& rim,
-                       const MarkerMotion& M, TouchPlace& out) {
+MovingPoint lowest_of_rim(const Rim& rim, const MarkerMotion& M, const Vector3d& normal,
+                          const Vector3d& normal_rate) {
   RimPoint point(rim, M);
-  const Vector3d up = solid.kind == TouchSurface::Kind::box ? Vector3d::Unit(axis) : solid.axis;
-  Vector3d normal = F.R * up;
-  if (normal.dot(point.centre - F.p) < 0.0) normal = -normal;
-  const Vector3d normal_rate = F.w.cross(normal);
   // Downhill within the end.
   const double along = point.axis.dot(normal);
   Vector3d down = along * point.axis - normal, down_rate;
@@ -222,7 +226,16 @@ void set_rim_over_face(const TouchSurface& solid, int axis, const MarkerMotion& 
     down_rate = M.w.cross(down);
   }
   point.turn_to(down);
-  const MovingPoint lowest{point.place(), point.centre_rate() + rim.radius * down_rate};
+  return {point.place(), point.centre_rate() + rim.radius * down_rate};
+}
+
+void set_rim_over_face(const TouchSurface& solid, int axis, const MarkerMotion& F, const Rim& rim,
+                       const MarkerMotion& M, TouchPlace& out) {
+  const Vector3d up = solid.kind == TouchSurface::Kind::box ? Vector3d::Unit(axis) : solid.axis;
+  Vector3d normal = F.R * up;
+  if (normal.dot(M.p + M.R * rim.middle - F.p) < 0.0) normal = -normal;
+  const Vector3d normal_rate = F.w.cross(normal);
+  const MovingPoint lowest = lowest_of_rim(rim, M, normal, normal_rate);
   const Vector3d x = F.R.transpose() * (lowest.x - F.p);
   const OverFace over(solid, axis, F.R.transpose() * normal, x);
   if (!over.is_over) {

@@ -19,14 +19,16 @@ struct Rim {
   }
 };
 
-/// An edge of a box, in axes of its marker.
+/// A straight edge between two faces, in axes of its marker.
 struct SharpEdge {
-  Eigen::Vector3d middle;                  ///< [m]
-  Eigen::Vector3d along;                   ///< unit vector
-  double half_length;                      ///< [m]
-  std::array<Eigen::Vector3d, 2> normals;  ///< of both faces
+  Eigen::Vector3d middle;  ///< [m]
+  Eigen::Vector3d along;   ///< unit vector
+  double half_length;      ///< [m]
+  /// Unit vectors across it, each going on beyond one of the faces. Normals of touching bodies lie
+  /// between them; of a right angle they are the normals of both faces.
+  std::array<Eigen::Vector3d, 2> beyond;
 
-  /// @param axis along it, @param one,other signs along the axes after it
+  /// Of a box. @param axis along it, @param one,other signs along the axes after it
   static SharpEdge of(const TouchSurface& box, int axis, double one, double other);
 };
 
@@ -36,7 +38,8 @@ struct SharpEdge {
 /// Where the rim is nearest to an edge, on one side of its middle, or on the other if that is
 /// clearly nearer; between them, their gap across both. Beyond an end of the edge, and where
 /// another part of either body is nearer, the distance of the points.
-void set_rim_over_edge(const SharpEdge& edge, const MarkerMotion& F, const Rim& rim,
+/// @return whether the gap is that across both, and leads out of both bodies
+bool set_rim_over_edge(const SharpEdge& edge, const MarkerMotion& F, const Rim& rim,
                        const MarkerMotion& M, double towards, TouchPlace& out);
 
 /// Where the rim is nearest to the curved side of a cylinder, on one side of its middle, or on the
@@ -44,6 +47,12 @@ void set_rim_over_edge(const SharpEdge& edge, const MarkerMotion& F, const Rim& 
 /// point, its rate that of the body's point.
 void set_rim_over_side(const TouchSurface& cylinder, const MarkerMotion& F, const Rim& rim,
                        const MarkerMotion& M, double towards, TouchPlace& out);
+
+/// The lowest point of a rim over a face, and its rate; where the end is level, one that stays in
+/// the body.
+/// @param normal out of the face, world axes
+MovingPoint lowest_of_rim(const Rim& rim, const MarkerMotion& M, const Eigen::Vector3d& normal,
+                          const Eigen::Vector3d& normal_rate);
 
 /// The lowest point of the rim over a face of a box, or over an end of a cylinder, which look at
 /// it. Beside the face the gap is the distance of this point, its rate that of the body's point.

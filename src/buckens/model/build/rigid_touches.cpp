@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "buckens/loads/cylinder_over_mesh.h"
 #include "buckens/loads/mesh_touch.h"
 #include "buckens/loads/polyhedron_touch.h"
 #include "buckens/loads/shape_distance.h"
@@ -81,9 +82,7 @@ class TouchList {
     } else if (second_.kind == ShapeKind::mesh) {
       add_found(loads::plane_touches(loads::touch_surface(first_), *second_.mesh));
     } else if (first_.kind == ShapeKind::mesh) {
-      for (const Vector3d& at : centres_of(second_)) {
-        add_found(loads::sphere_touches(first_.mesh, second_.radius, at));
-      }
+      add_on_mesh();
     } else {
       add_points(Feature::point_of_second, first_, second_);
     }
@@ -144,6 +143,18 @@ class TouchList {
       for (const double towards : {1.0, -1.0}) {
         add_found({spatial::capsule_over_rim(cylinder, capsule, end, towards)});
       }
+    }
+  }
+
+  /// A sphere, a capsule or a cylinder.
+  void add_on_mesh() {
+    const spatial::TouchSurface over = loads::touch_surface(second_);
+    if (second_.kind == ShapeKind::sphere) {
+      add_found(loads::sphere_touches(first_.mesh, second_.radius, Vector3d::Zero()));
+    } else if (second_.kind == ShapeKind::capsule) {
+      add_found(loads::capsule_touches(first_.mesh, over));
+    } else {
+      add_found(loads::cylinder_over_mesh(loads::polyhedron_of(first_), over));
     }
   }
 

@@ -82,16 +82,7 @@ Found pair_problem(const loads::ContactSpec& spec) {
   return does_not_fit("bore", bore->radius, sphere != nullptr ? sphere->radius : cylinder->radius);
 }
 
-bool touch_rigidly(loads::ContactShape::Kind first, loads::ContactShape::Kind second) {
-  using enum loads::ContactShape::Kind;
-  if (second == sphere || first == plane) return true;
-  if (second == capsule) return true;
-  if (first == mesh && (second == mesh || second == box)) return true;
-  if (second == cylinder && (first == box || first == cylinder)) return true;
-  return (first == bore && second == cylinder) || (first == box && second == box);
-}
-
-/// Keys and shapes that only elastic contacts have.
+/// Keys that only elastic contacts have.
 Found rigid_problem(const loads::ContactSpec& spec) {
   const auto needs_stiffness = [](const char* key) {
     return Finding{key,
@@ -101,17 +92,7 @@ Found rigid_problem(const loads::ContactSpec& spec) {
   if (spec.damping > 0.0) return needs_stiffness("damping");
   if (spec.exponent) return needs_stiffness("exponent");
   if (spec.tangential) return needs_stiffness("tangential-stiffness");
-  for (const auto& [first, second] : loads::ContactPair::all()) {
-    if (!is_pair(spec, loads::to_string(first), loads::to_string(second))) continue;
-    if (touch_rigidly(first, second)) return std::nullopt;
-  }
-  return Finding{
-      "shapes",
-      fmt::format("a {} and a {} need a `stiffness`; rigid contacts are those "
-                  "of a sphere or a plane with anything, of a capsule with a capsule, box, "
-                  "cylinder or mesh, of a cylinder with a box or cylinder, of a pin in a bore, and "
-                  "of boxes and meshes with each other",
-                  spec.shapes[0].touches_as(), spec.shapes[1].touches_as())};
+  return std::nullopt;
 }
 
 Found restitution_problem(const loads::ContactForceSpec& spec) {
