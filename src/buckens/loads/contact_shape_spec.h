@@ -170,8 +170,9 @@ struct StlShape {
   static constexpr const char* kKey = "stl";
   static constexpr const char* kDoc =
       "surface of triangles from an STL file, text or binary, placed by the marker; it can touch "
-      "planes, spheres, capsules (with their ends), cylinders (with their rims), boxes (with their "
-      "corners) and other surfaces of triangles";
+      "planes, spheres, capsules, cylinders, boxes and other surfaces of triangles, with a "
+      "stiffness capsules only with their ends, cylinders with their rims, boxes with their "
+      "corners";
   SourceLocation where;
   std::string file;
   double unit = 0;  ///< [m]
