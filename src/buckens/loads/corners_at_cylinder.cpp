@@ -23,7 +23,7 @@ namespace {
 // Of the smaller body, up to which corners are looked for inside a cylinder.
 constexpr double kDeepestInCylinder = 0.1;
 // Of the smaller body, by which places that touch nothing have to be nearer than those that may.
-constexpr double kBesideCylinder = 3e-5;
+constexpr double kBesideCylinder = 1e-2;
 // Sine by which an edge may dip below the end or side that it is told to touch: as of polyhedra.
 constexpr double kDipBelow = 0.1;
 

@@ -24,7 +24,7 @@ spatial::TouchFinders rims_over_faces(const std::shared_ptr<const Polyhedron>& m
 spatial::TouchFinders corners_at_cylinder(const std::shared_ptr<const Polyhedron>& mesh,
                                           const spatial::TouchSurface& cylinder);
 
-/// Sharp edges, or groups of them, at the side and at two places of either rim.
+/// Sharp edges, or groups of them, at the side or the rims: two places of each.
 spatial::TouchFinders edges_at_cylinder(const std::shared_ptr<const Polyhedron>& mesh,
                                         const spatial::TouchSurface& cylinder);
 

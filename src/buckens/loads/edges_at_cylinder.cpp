@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -25,11 +26,14 @@ namespace {
 
 // Of the smaller body, up to which edges are looked for inside a cylinder.
 constexpr double kDeepestAtCylinder = 0.1;
-// Of the smaller body, by which places that touch nothing have to be nearer than those that may,
-// and by which what touches nothing is apart.
-constexpr double kBesideRim = 3e-5, kApartFromSide = 1e-3;
+// Of the smaller body, by which places that touch nothing have to be nearer than those that may.
+constexpr double kBesideRim = 1e-2;
 // Of the depth: if the end of an edge is nearer to a place and inside, too, it is the place.
 constexpr double kNearEdgeEnd = 0.5;
+// Of the way along an edge, by which a place further on may be higher.
+constexpr double kFurtherAlong = 1e-5;
+// Of the smaller body, by which places on an edge are apart.
+constexpr double kSameOnEdge = 1e-7;
 
 /// Some edges of a mesh of F, and a cylinder of M.
 struct EdgesOfMesh {
@@ -86,137 +90,172 @@ struct EdgesOfMesh {
   }
 };
 
-/// One feature of the cylinder at the nearest of the edges.
-class EdgeTouchFinder : public spatial::TouchFinder {
- public:
-  EdgeTouchFinder(std::shared_ptr<const EdgesOfMesh> edges, const AlignedBox3d& own_box)
-      : edges_(std::move(edges)), own_box_(own_box) {}
+/// Where a cylinder is at an edge: at its side, or at one of two places of either rim.
+struct Feature {
+  double end = 0;      // 0: the side; 1 or −1: the rim
+  double towards = 0;  // of the rim: 1 or −1
+};
+constexpr std::array<Feature, 5> kFeatures = {
+    {{0.0, 0.0}, {1.0, 1.0}, {1.0, -1.0}, {-1.0, 1.0}, {-1.0, -1.0}}};
 
-  void look(const MarkerMotion& F, const MarkerMotion& M, TouchPlace& out) const override {
-    const Found found = memory_.at(RelativePose::of(F, M),
-                                   [this](const RelativePose& pose) { return nearest(pose); });
-    set(found.edge, found.touches, F, M, out);
-    out.touches = found.touches;
-    if (found.touches || out.gap > kApartFromSide * edges_->size) return;
-    out.gap = std::abs(out.gap) + kApartFromSide * edges_->size;
+/// One feature of the cylinder at one edge.
+struct AtEdge {
+  std::size_t edge = 0, feature = 0;
+  bool touches = false;
+  double order = HUGE_VAL;  // the gap where it touches
+  double along = 0;         // where on the edge, from its middle [m]
+};
+
+/// The places of a cylinder at some edges.
+class CylinderOverEdges {
+ public:
+  CylinderOverEdges(std::shared_ptr<const Polyhedron> mesh, std::vector<int> group,
+                    const TouchSurface& cylinder)
+      : from_(std::move(mesh), std::move(group), cylinder),
+        half_(cylinder.half_length * cylinder.axis) {
+    for (const double end : {1.0, -1.0}) {
+      own_box_.extend(box_around_disc(end * half_, cylinder.axis, cylinder.radius));
+    }
   }
 
- protected:
-  /// @param M in axes of the mesh, @param gap where it touches, else the distance [m]
-  /// @return whether it touches
-  virtual bool see(std::size_t edge, const MarkerMotion& M, double& gap) const = 0;
-  virtual void set(std::size_t edge, bool touches, const MarkerMotion& F, const MarkerMotion& M,
-                   TouchPlace& out) const = 0;
-  const EdgesOfMesh& edges() const { return *edges_; }
+  /// The nearest ones; of several that are alike, the last towards either end of the edge: what an
+  /// edge and a cylinder have in common is straight, and has two ends.
+  std::array<AtEdge, 2> find(const RelativePose& pose) const {
+    return memory_.at(pose, [this](const RelativePose& at) { return search(at); });
+  }
+  void set(const AtEdge& found, const MarkerMotion& F, const MarkerMotion& M,
+           TouchPlace& out) const {
+    const Feature& feature = kFeatures[found.feature];
+    const SharpEdge& edge = from_.edges[found.edge];
+    if (feature.end != 0.0) {
+      spatial::set_rim_over_edge(edge, F, Rim::of(from_.cylinder, feature.end), M, feature.towards,
+                                 out);
+    } else if (found.touches) {
+      spatial::set_segments({edge.middle, edge.half_length * edge.along, 0.0}, F,
+                            {Vector3d::Zero(), half_, from_.cylinder.radius}, M, F.R.col(2), out);
+    } else {
+      set_beside(edge, F, M, out);
+    }
+    out.touches = found.touches;
+    // What touches nothing is apart.
+    if (!found.touches) out.gap = std::abs(out.gap);
+  }
 
  private:
-  struct Found {
-    std::size_t edge = 0;
-    bool touches = false;
-    double order = HUGE_VAL;
-  };
-
-  Found nearest(const RelativePose& pose) const {
+  std::array<AtEdge, 2> search(const RelativePose& pose) const {
     MarkerMotion M;
     M.p = pose.r;
     M.R = pose.R;
     const AlignedBox3d around = seen_from_first(pose, own_box_);
-    Found best;
-    edges_->tree.search(
+    std::array<AtEdge, 2> best;
+    std::array<double, 2> least = {HUGE_VAL, HUGE_VAL};
+    from_.tree.search(
         [&](const AlignedBox3d& box) { return std::sqrt(box.squaredExteriorDistance(around)); },
         [&](double distance, std::uint32_t /*marks*/) {
-          return distance < std::max(best.order, edges_->deepest());
+          return distance < std::max({least[0], least[1], from_.deepest()});
         },
         [&](int k) {
-          Found found{static_cast<std::size_t>(k), false, 0.0};
-          found.touches = see(found.edge, M, found.order);
-          if (!found.touches) found.order = std::abs(found.order) + kBesideRim * edges_->size;
-          if (found.order < best.order) best = found;
+          const auto all = see_all(static_cast<std::size_t>(k), M);
+          const int first = rank_of(*std::min_element(
+              all.begin(), all.end(),
+              [&](const AtEdge& a, const AtEdge& b) { return rank_of(a) < rank_of(b); }));
+          for (const AtEdge& found : all) {
+            if (rank_of(found) > first) continue;
+            for (std::size_t end = 0; end < 2; ++end) {
+              const double on = (end == 0 ? kFurtherAlong : -kFurtherAlong) * found.along;
+              if (!(found.order - on < least[end])) continue;
+              least[end] = found.order - on;
+              best[end] = found;
+            }
+          }
         });
+    // Two rows in one place would share its load without need.
+    if (best[0].edge == best[1].edge &&
+        std::abs(best[0].along - best[1].along) <= kSameOnEdge * from_.size) {
+      best[1].touches = false;
+    }
     return best;
   }
 
-  std::shared_ptr<const EdgesOfMesh> edges_;
-  AlignedBox3d own_box_;  // of the feature, in axes of the cylinder
-  mutable PoseMemory<Found> memory_;
-};
-
-class EdgesAtRim final : public EdgeTouchFinder {
- public:
-  EdgesAtRim(std::shared_ptr<const EdgesOfMesh> edges, const Rim& rim, double towards)
-      : EdgeTouchFinder(std::move(edges), box_around_disc(rim.middle, rim.axis, rim.radius)),
-        rim_(rim),
-        towards_(towards) {}
-
- private:
-  bool see(std::size_t k, const MarkerMotion& M, double& gap) const override {
-    TouchPlace place;
-    const bool looks_out =
-        spatial::set_rim_over_edge(edges().edges[k], MarkerMotion{}, rim_, M, towards_, place);
-    gap = place.gap;
-    const Vector3d half = 0.5 * place.gap * place.normal;
-    return looks_out && edges().touch_at(k, place.place - half, place.place + half, place.gap, M);
-  }
-  void set(std::size_t k, bool /*touches*/, const MarkerMotion& F, const MarkerMotion& M,
-           TouchPlace& out) const override {
-    spatial::set_rim_over_edge(edges().edges[k], F, rim_, M, towards_, out);
-  }
-
-  Rim rim_;
-  double towards_;
-};
-
-class EdgesAtSide final : public EdgeTouchFinder {
- public:
-  EdgesAtSide(std::shared_ptr<const EdgesOfMesh> edges, const TouchSurface& cylinder)
-      : EdgeTouchFinder(std::move(edges), box_around_axis(cylinder)),
-        half_(cylinder.half_length * cylinder.axis),
-        radius_(cylinder.radius) {}
-
- private:
-  static AlignedBox3d box_around_axis(const TouchSurface& cylinder) {
-    AlignedBox3d out;
-    for (const double end : {1.0, -1.0}) {
-      out.extend(box_around_disc(end * cylinder.half_length * cylinder.axis, cylinder.axis,
-                                 cylinder.radius));
-    }
+  std::array<AtEdge, kFeatures.size()> see_all(std::size_t k, const MarkerMotion& M) const {
+    std::array<AtEdge, kFeatures.size()> out;
+    for (std::size_t feature = 0; feature < out.size(); ++feature)
+      out[feature] = see(k, feature, M);
     return out;
   }
-  bool see(std::size_t k, const MarkerMotion& M, double& gap) const override {
-    const Polyhedron::Edge& edge = edges().edge(k);
+  /// Places that touch come first, then those between the ends of the edge; an end, which may
+  /// touch as a corner, hides none of them.
+  int rank_of(const AtEdge& at) const {
+    if (at.touches) return 0;
+    return std::abs(at.along) < from_.edges[at.edge].half_length - kSameOnEdge * from_.size ? 1 : 2;
+  }
+  AtEdge see(std::size_t k, std::size_t feature, const MarkerMotion& M) const {
+    AtEdge out{k, feature};
+    double gap = 0.0;
+    out.touches = kFeatures[feature].end != 0.0 ? see_rim(kFeatures[feature], M, out, gap)
+                                                : see_side(M, out, gap);
+    out.order = out.touches ? gap : std::abs(gap) + kBesideRim * from_.size;
+    return out;
+  }
+  bool see_rim(const Feature& feature, const MarkerMotion& M, AtEdge& out, double& gap) const {
+    const SharpEdge& edge = from_.edges[out.edge];
+    TouchPlace place;
+    const bool looks_out = spatial::set_rim_over_edge(
+        edge, MarkerMotion{}, Rim::of(from_.cylinder, feature.end), M, feature.towards, place);
+    gap = place.gap;
+    const Vector3d half = 0.5 * place.gap * place.normal;
+    out.along = edge.along.dot(place.place - edge.middle);
+    return looks_out && from_.touch_at(out.edge, place.place - half, place.place + half, gap, M);
+  }
+  bool see_side(const MarkerMotion& M, AtEdge& out, double& gap) const {
+    const Polyhedron::Edge& edge = from_.edge(out.edge);
     const Vector3d own = M.R * half_, r = M.p - edge.middle;
     const auto at = NearestOfSegments::of(r, edge.half, own);
     const Vector3d x = edge.middle + at.on_first * edge.half;
     const Vector3d between = r + at.on_second * own - at.on_first * edge.half;
-    const double length = between.norm(), over = length - radius_;
+    const double length = between.norm(), over = length - from_.cylinder.radius;
+    out.along = at.on_first * from_.edges[out.edge].half_length;
     // What is further below the side than below the end is not at the side.
     const double off_the_end = (1.0 - std::abs(at.on_second)) * half_.norm();
-    if (off_the_end > edges().mesh->same() && -over <= off_the_end && length > 0.0) {
+    if (off_the_end > from_.mesh->same() && -over <= off_the_end && length > 0.0) {
       const Vector3d normal = between / length;
       gap = over;
-      if (edge.looks_out(normal) && edges().touch_at(k, x, x + over * normal, over, M)) return true;
+      if (edge.looks_out(normal) && from_.touch_at(out.edge, x, x + over * normal, over, M)) {
+        return true;
+      }
     }
-    gap = edges().cylinder.look(M.R.transpose() * (x - M.p), false).distance;
+    gap = from_.cylinder.look(M.R.transpose() * (x - M.p), false).distance;
     return false;
   }
-  void set(std::size_t k, bool touches, const MarkerMotion& F, const MarkerMotion& M,
-           TouchPlace& out) const override {
-    const Polyhedron::Edge& edge = edges().edge(k);
-    if (touches) {
-      return spatial::set_segments({edge.middle, edge.half, 0.0}, F,
-                                   {Vector3d::Zero(), half_, radius_}, M, F.R.col(2), out);
-    }
-    // The place of the edge that is nearest to the axis: a distance, with the rates of the body.
-    const auto at =
-        NearestOfSegments::of(M.p - F.p - F.R * edge.middle, F.R * edge.half, M.R * half_);
-    spatial::set_sphere_at(edges().cylinder, M,
-                           spatial::MovingPoint::of(F, edge.middle + at.on_first * edge.half), 0.0,
-                           out);
+  /// The place of the edge that is nearest to the axis: a distance, with the rates of the body.
+  void set_beside(const SharpEdge& edge, const MarkerMotion& F, const MarkerMotion& M,
+                  TouchPlace& out) const {
+    const Vector3d half = edge.half_length * edge.along;
+    const auto at = NearestOfSegments::of(M.p - F.p - F.R * edge.middle, F.R * half, M.R * half_);
+    const auto x = spatial::MovingPoint::of(F, edge.middle + at.on_first * half);
+    spatial::set_sphere_at(from_.cylinder, M, x, 0.0, out);
     spatial::turn_round(out);
   }
 
+  EdgesOfMesh from_;
   Vector3d half_;
-  double radius_;
+  AlignedBox3d own_box_;  // in axes of the cylinder
+  mutable PoseMemory<std::array<AtEdge, 2>> memory_;
+};
+
+/// One of its two places.
+class CylinderAtEdges final : public spatial::TouchFinder {
+ public:
+  CylinderAtEdges(std::shared_ptr<const CylinderOverEdges> places, std::size_t end)
+      : places_(std::move(places)), end_(end) {}
+
+  void look(const MarkerMotion& F, const MarkerMotion& M, TouchPlace& out) const override {
+    places_->set(places_->find(RelativePose::of(F, M))[end_], F, M, out);
+  }
+
+ private:
+  std::shared_ptr<const CylinderOverEdges> places_;
+  std::size_t end_;
 };
 
 }  // namespace
@@ -228,12 +267,9 @@ spatial::TouchFinders edges_at_cylinder(const std::shared_ptr<const Polyhedron>&
   const std::size_t most = middles.size() > kMostSingleEdges ? kEdgeGroups : middles.size();
   spatial::TouchFinders out;
   for (std::vector<int>& group : far_groups(middles, most)) {
-    const auto edges = std::make_shared<const EdgesOfMesh>(mesh, std::move(group), cylinder);
-    out.push_back(std::make_shared<EdgesAtSide>(edges, cylinder));
-    for (const double end : {1.0, -1.0}) {
-      for (const double towards : {1.0, -1.0}) {
-        out.push_back(std::make_shared<EdgesAtRim>(edges, Rim::of(cylinder, end), towards));
-      }
+    const auto places = std::make_shared<const CylinderOverEdges>(mesh, std::move(group), cylinder);
+    for (const std::size_t end : {0, 1}) {
+      out.push_back(std::make_shared<CylinderAtEdges>(places, end));
     }
   }
   return out;

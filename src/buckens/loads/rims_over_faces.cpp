@@ -22,7 +22,7 @@ namespace {
 // Of the smaller body, up to which the lowest point of a rim is looked for inside.
 constexpr double kDeepestRim = 0.1;
 // Of the smaller body, by which places that touch nothing have to be nearer than those that may.
-constexpr double kBesideFace = 3e-5;
+constexpr double kBesideFace = 1e-2;
 // Cosine between a face and an end that looks away from it, by more than a body turns in a step.
 constexpr double kLooksAway = 0.1;
 // Of the depth, within which the face through which a point came in is the one asked about.
