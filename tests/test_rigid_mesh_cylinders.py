@@ -287,7 +287,7 @@ output:
     assert numpy.abs(out["balance"]).max() < 5e-3 * out["lost"][-1]
 
 
-# What lies below, what is thrown on it. Of 15 seeds each none ends the run, and some leave the balance open: theory 25 §7.
+# What lies below, what is thrown on it. Of 30 seeds each none ends the run, and three leave the balance open: theory 25 §7.
 THROWS = {
     "drum-on-table": (triangle_meshes.box([0.6, 0.6, 1], 2), f"{BASE}, {{cylinder: {{radius: 0.1, length: 0.25}}}}"),
     "block-on-drum": (triangle_meshes.box([0.2, 0.3, 0.15], 2), f"{{cylinder: {{radius: 0.3, length: 1}}}}, {BASE}"),
