@@ -120,7 +120,7 @@ void collect_block(const Constants& is, const BodyBlock& block) {
     if (block.has_given) nodes = nodes + take<Row::N>(t, Row::given_nodes);
     const auto weights = is.cent0 * Of<S>::centrifugal(take<S::R>(t, Row::we));
     nodes = nodes + transposed_product<S::P, Row::N>(block.fixed, FixedRows<S>::pat, weights);
-    give(t, Row::f, nodes);
+    give(t, Row::f, symmetric_product(block.fixed, FixedRows<S>::A, is.c * nodes));
   }
 }
 
@@ -198,9 +198,8 @@ double find_residual_of_block(const Constants& is, const BodyBlock& block) {
   Lanes size = frame_size<S>(residual, is.L);
   if constexpr (HasMesh) {
     constexpr int N = Row::N;
-    const auto moving = take<N>(t, Row::free) - take<N>(t, Row::end) +
-                        product<N>(block.fixed, FixedRows<S>::A, is.c * take<N>(t, Row::f)) +
-                        product<N>(block.fixed, FixedRows<S>::B, take<N>(t, Row::e));
+    const auto moving =
+        take<N>(t, Row::free) - take<N>(t, Row::end) + take<N>(t, Row::f) + take<N>(t, Row::be);
     give(t, Row::mov, moving);
     size = larger(size, node_size<S>(block, moving, is.L));
   }
@@ -225,9 +224,11 @@ void correct_block(const BodyBlock& block) {
   give(t, Row::cu, frame_answer<S>(t, frame));
   if constexpr (HasMesh) {
     constexpr int N = Row::N;
-    give(t, Row::de, nodes);
-    give(t, Row::ye, product<N>(block.fixed, FixedRows<S>::A, nodes));
-    give(t, Row::mov, take<N>(t, Row::mov) + product<N>(block.fixed, FixedRows<S>::B, nodes));
+    const auto shift = symmetric_product(block.fixed, FixedRows<S>::A, nodes);
+    const auto strain = symmetric_product(block.fixed, FixedRows<S>::B, nodes);
+    give(t, Row::dc, take<N>(t, Row::dc) + shift);
+    give(t, Row::be, take<N>(t, Row::be) + strain);
+    give(t, Row::mov, take<N>(t, Row::mov) + strain);
   }
   const auto A = take<S::M>(t, Row::turn0);
   const auto turned = rotation_of<S>(t, Row::res);
@@ -269,10 +270,9 @@ Largest advance_block(const Constants& is, const BodyBlock& block) {
   out.motion = largest(frame_size<S>(u, is.L));
   if constexpr (HasMesh) {
     constexpr int N = Row::N;
-    const auto change = take<N>(t, Row::mov) + product<N>(block.fixed, FixedRows<S>::A, nodes);
+    const auto change =
+        take<N>(t, Row::mov) + symmetric_product(block.fixed, FixedRows<S>::A, nodes);
     give(t, Row::end, take<N>(t, Row::end) + change);
-    give(t, Row::e, take<N>(t, Row::e) + take<N>(t, Row::de));
-    give(t, Row::dc, take<N>(t, Row::dc) + take<N>(t, Row::ye));
     out.interface = largest(node_size<S>(block, change, is.L));
   }
   return out;
@@ -290,9 +290,7 @@ void complete(const Constants& is, BodyBlock& block) {
   constexpr int N = Row::N;
   double* const t = block.rows;
   const auto d = take<N>(t, Row::d);
-  const auto increment = take<N>(t, Row::free) - d +
-                         product<N>(block.fixed, FixedRows<S>::A, is.c * take<N>(t, Row::f)) +
-                         product<N>(block.fixed, FixedRows<S>::B, take<N>(t, Row::e));
+  const auto increment = take<N>(t, Row::free) - d + take<N>(t, Row::f) + take<N>(t, Row::be);
   give(t, Row::nd, d + increment + take<N>(t, Row::dc));
   give(t, Row::nd1, is.s1 * increment + take<N>(t, Row::dv));
   const auto acceleration =

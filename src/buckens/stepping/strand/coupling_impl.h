@@ -110,7 +110,7 @@ void take_over(const Constants& is, BodyBlock& block) {
     store(t, Row::load + i, mask != 0.0 ? load(t, Row::eload + i) : used[i]);
   }
   give(t, Row::free,
-       take<N>(t, Row::free) + product<N>(block.fixed, FixedRows<S>::A, is.c * change));
+       take<N>(t, Row::free) + symmetric_product(block.fixed, FixedRows<S>::A, is.c * change));
 }
 
 }  // namespace

@@ -188,14 +188,13 @@ struct Compliance {
     W = gather<S::R * S::R>(block.body, BodyRows<S>::W);
     tau = gather_row(block.body, BodyRows<S>::tau);
     turn = gather<S::M>(block.body, BodyRows<S>::turn0);
-    constexpr int N = FixedRows<S>::N;
     for (int i = 0; i < S::F; ++i) {
       for (int k = 0; k < S::F; ++k) {
         node[i][k] = of_lanes([&](int lane) {
           if (!block.has_mesh) return 0.0;
-          const int row =
-              FixedRows<S>::A + N * (S::F * block.which[0][lane] + i) + S::F * block.which[1][lane];
-          return block.fixed[lane][static_cast<std::ptrdiff_t>(kLanes) * (row + k)];
+          const int row = FixedRows<S>::A + symmetric_place(S::F * block.which[0][lane] + i,
+                                                            S::F * block.which[1][lane] + k);
+          return block.fixed[lane][static_cast<std::ptrdiff_t>(kLanes) * row];
         });
       }
     }

@@ -133,6 +133,36 @@ BUCKENS_LANES Numbers<Columns> transposed_product(const double* rows, int M,
   return out;
 }
 
+/// The entries (I, K) … (I, I) of a symmetric matrix: to y_I what is left of its row, to y_K what
+/// the other half has.
+template <int I, int K, int N>
+BUCKENS_LANES void add_symmetric_row(const double* rows, const Numbers<N>& x, Numbers<N>& y) {
+  const Lanes entry = load(rows, symmetric_place(I, K));
+  if constexpr (K < I) {
+    y[K] += entry * x[I];
+    y[I] += entry * x[K];
+    add_symmetric_row<I, K + 1, N>(rows, x, y);
+  } else {
+    y[I] += entry * x[I];
+    if constexpr (I + 1 < N) {
+      y[I + 1] = load(rows, symmetric_place(I + 1, 0)) * x[0];
+      y[0] += load(rows, symmetric_place(I + 1, 0)) * x[I + 1];
+      add_symmetric_row<I + 1, 1, N>(rows, x, y);
+    }
+  }
+}
+/// y = M x with one half of a symmetric M in the table.
+template <int N>
+BUCKENS_LANES Numbers<N> symmetric_product(const double* rows, int M, const Numbers<N>& x) {
+  const double* const half = rows + static_cast<std::ptrdiff_t>(kLanes) * M;
+  Numbers<N> y;
+  y[0] = load(half, 0) * x[0];
+  y[1] = load(half, 1) * x[0];
+  y[0] += load(half, 1) * x[1];
+  add_symmetric_row<1, 1, N>(half, x, y);
+  return y;
+}
+
 template <int K>
 BUCKENS_LANES Numbers<K> combination(const Weights& w, const double* rows, int d, int rate,
                                      int accel, int alg) {

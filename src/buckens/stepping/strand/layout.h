@@ -91,13 +91,11 @@ struct MeshRows : BodyRows<S> {
   static constexpr int dv = load + N;           ///< velocity of the step's history
   static constexpr int free = dv + N;           ///< at the end without interface loads
   static constexpr int end = free + N;          ///< at the end without correction
-  static constexpr int f = end + N;             ///< interface and centrifugal load
-  static constexpr int e = f + N;               ///< load of the correction
-  static constexpr int dc = e + N;              ///< displacement by it
-  static constexpr int mov = dc + N;            ///< change at fixed multipliers
-  static constexpr int de = mov + N;            ///< e of an iteration
-  static constexpr int ye = de + N;             ///< displacement by it
-  static constexpr int nd = ye + N;             ///< state at the end
+  static constexpr int f = end + N;             ///< answer to interface and centrifugal loads
+  static constexpr int dc = f + N;              ///< displacement by the correction
+  static constexpr int be = dc + N;             ///< what its strain moves in the step
+  static constexpr int mov = be + N;            ///< change at fixed multipliers
+  static constexpr int nd = mov + N;            ///< state at the end
   static constexpr int nd1 = nd + N;
   static constexpr int nd2 = nd1 + N;
   static constexpr int nda = nd2 + N;
@@ -121,20 +119,28 @@ struct MeshRows : BodyRows<S> {
   static constexpr int count = given_nodes + N;
 };
 
-/// Rows of what is constant of a block of beam parts. Blocks of equal parts share them.
+/// Where entry (i, j) of a symmetric matrix is in a table that holds one half of it.
+constexpr int symmetric_place(int i, int j) {
+  return i >= j ? i * (i + 1) / 2 + j : j * (j + 1) / 2 + i;
+}
+
+/// Rows of what is constant of a block of beam parts. Blocks of equal parts share them; parts that
+/// are turned in many ways each have their own, which then come from memory: so matrices that are
+/// symmetric have one half here.
 template <class S>
 struct FixedRows {
   static constexpr int N = MeshRows<S>::N;
+  static constexpr int kHalf = N * (N + 1) / 2;
   static constexpr int inverse = 0;             ///< of the diagonal of K̂
   static constexpr int per_load = inverse + N;  ///< the same as displacements
   static constexpr int per_pattern = per_load + N;
   static constexpr int pat = per_pattern + 1;  ///< patterns, P×N
   static constexpr int und = pat + S::P * N;   ///< undeformed, P×P
-  static constexpr int A = und + S::P * S::P;  ///< Y K̂⁻¹, N×N by rows
-  static constexpr int B = A + N * N;          ///< of corrections
-  static constexpr int Mass = B + N * N;
-  static constexpr int Phi = Mass + N * N;   ///< rigid motions N×F, by columns
-  static constexpr int Pi = Phi + N * S::F;  ///< and what finds them
+  static constexpr int A = und + S::P * S::P;  ///< Y K̂⁻¹, symmetric
+  static constexpr int B = A + kHalf;          ///< of corrections, symmetric
+  static constexpr int Mass = B + kHalf;       ///< symmetric
+  static constexpr int Phi = Mass + kHalf;     ///< rigid motions N×F, by columns
+  static constexpr int Pi = Phi + N * S::F;    ///< and what finds them
   static constexpr int count = Pi + N * S::F;
 };
 

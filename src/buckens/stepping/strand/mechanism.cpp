@@ -2,10 +2,8 @@
 #include "buckens/stepping/strand/mechanism.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <map>
-#include <new>
 #include <utility>
 
 #include "buckens/body/body_lengths.h"
@@ -38,6 +36,9 @@ constexpr std::array<int, S::P> pairs() {
 
 // Of blocks laid out last, to find equal ones.
 constexpr std::size_t kTablesCompared = 8;
+// Numbers that are allocated at once: more and more of them, so that large models lie on huge
+// pages.
+constexpr std::size_t kFirstChunk = std::size_t{1} << 14, kLargestChunk = std::size_t{1} << 20;
 
 /// Places of an inertia's entries in a matrix.
 template <class S>
@@ -56,14 +57,30 @@ int component(int k) {
   return k;
 }
 
+/// A matrix that is symmetric to rounding, as sieved K̂⁻¹ is: parts can move freely and are damped
+/// by M and K. @param order place in the tables of every variable
+void put_half(double* fixed, int row, const std::vector<int>& order, const Matrix& values) {
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      const auto a = static_cast<Index>(i), b = static_cast<Index>(j);
+      entry(fixed, row + strand::symmetric_place(order[i], order[j])) =
+          0.5 * (values(a, b) + values(b, a));
+    }
+  }
+}
+
 }  // namespace
 
 double* StrandMechanism::rows(int count) {
-  const std::size_t bytes = static_cast<std::size_t>(kLanes * count) * sizeof(double);
-  memory_.emplace_back(static_cast<double*>(std::aligned_alloc(64, bytes)), &std::free);
-  double* const out = memory_.back().get();
-  if (out == nullptr) throw std::bad_alloc();
-  std::fill_n(out, kLanes * count, 0.0);
+  const auto size = static_cast<std::size_t>(kLanes * count);
+  if (memory_.empty() || used_ + size > memory_.back().size()) {
+    const std::size_t last = memory_.empty() ? kFirstChunk / 2 : memory_.back().size();
+    memory_.emplace_back(std::max(size, std::min(2 * last, kLargestChunk)));
+    used_ = 0;
+  }
+  double* const out = memory_.back().data() + used_;
+  used_ += size;
+  std::fill_n(out, size, 0.0);
   return out;
 }
 
@@ -162,6 +179,7 @@ void StrandMechanism::lay_out(const Operators& operators) {
   }
   lay_out_joints<S>();
   lay_out_pairs<S>();
+  sweep_ = strand::Sweep(body_blocks_, joint_blocks_);
 }
 
 template <class S>
@@ -190,7 +208,7 @@ const double* StrandMechanism::shared_table(double* table, int count) {
     return known.count == count && std::memcmp(known.rows, table, size) == 0;
   });
   if (same != fixed_.end()) {
-    memory_.pop_back();
+    used_ -= static_cast<std::size_t>(kLanes * count);
     return same->rows;
   }
   // Alike blocks follow one another.
@@ -245,9 +263,7 @@ void StrandMechanism::fill_mesh(std::size_t b, BodyStepOperator& op, double* fix
     for (Index i = 0; i < N; ++i) entry(fixed, row + at(i)) = values[i];
   };
   const auto set_matrix = [&](int row, const Matrix& values) {
-    for (Index i = 0; i < N; ++i) {
-      for (Index j = 0; j < N; ++j) entry(fixed, row + N * at(i) + at(j)) = values(i, j);
-    }
+    put_half(fixed, row, order, values);
   };
   Matrix inverse(N, N);
   for (Index j = 0; j < N; ++j) {

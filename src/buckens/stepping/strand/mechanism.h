@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "buckens/linalg/block_lu.h"
+#include "buckens/linalg/streaming_memory.h"
 #include "buckens/model/model.h"
 #include "buckens/stepping/body_step_operator.h"
 #include "buckens/stepping/strand/layout.h"
+#include "buckens/stepping/strand/sweep.h"
 
 namespace buckens::stepping {
 
@@ -58,6 +60,8 @@ class StrandMechanism {
   const std::vector<std::size_t>& members(std::size_t block) const { return members_[block]; }
   std::vector<strand::JointBlock>& joint_blocks() { return joint_blocks_; }
   const std::vector<strand::PairBlock>& pair_blocks() const { return pair_blocks_; }
+  /// Goes through both.
+  const strand::Sweep& sweep() const { return sweep_; }
   linalg::BlockLu& matrix() { return *matrix_; }
   const Place& body(std::size_t b) const { return bodies_[b]; }
   /// First of the multipliers of a joint, its lane.
@@ -115,13 +119,15 @@ class StrandMechanism {
   bool is_planar_;
   const strand::Kernels* kernels_;
   strand::Constants constants_;
-  std::vector<std::unique_ptr<double[], void (*)(void*)>> memory_;
+  std::vector<linalg::StreamingMemory> memory_;
+  std::size_t used_ = 0;      // of the last one
   std::vector<Table> fixed_;  // the last ones that are shared
   std::vector<strand::BodyBlock> body_blocks_;
   std::vector<std::vector<std::size_t>> members_;
   std::vector<std::unique_ptr<Integrals>> integrals_;
   std::vector<strand::JointBlock> joint_blocks_;
   std::vector<strand::PairBlock> pair_blocks_;
+  strand::Sweep sweep_;
   std::unique_ptr<linalg::BlockLu> matrix_;
   std::vector<Place> bodies_;
   std::vector<std::vector<int>> orders_;

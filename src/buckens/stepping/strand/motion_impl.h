@@ -36,17 +36,18 @@ void start_mesh(const Constants& is, const BodyBlock& block) {
   };
   give(t, Row::dv, past(is.velocity, false));
   give(t, Row::end, take<N>(t, Row::d) + past(is.predicted, false));
-  const Numbers<N> side = product<N>(block.fixed, FixedRows<S>::Mass, past(is.with_mass, true)) +
-                          is.side_load * take<N>(t, Row::load);
-  Numbers<N> free = product<N>(block.fixed, FixedRows<S>::A, side);
+  const Numbers<N> side =
+      symmetric_product(block.fixed, FixedRows<S>::Mass, past(is.with_mass, true)) +
+      is.side_load * take<N>(t, Row::load);
+  Numbers<N> free = symmetric_product(block.fixed, FixedRows<S>::A, side);
   if (is.is_damped) {
     free = free + past(is.beside, true);
     sieve<S>(block.fixed, free);
   }
   give(t, Row::free, free);
   clear<N>(t, Row::f);
-  clear<N>(t, Row::e);
   clear<N>(t, Row::dc);
+  clear<N>(t, Row::be);
 }
 
 template <class S>

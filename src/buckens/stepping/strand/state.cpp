@@ -139,14 +139,10 @@ void StrandStep::load_body(const model::State& state, std::size_t b) {
 }
 
 template <class S>
-void StrandStep::load(const model::State& state) {
-  furthest_ = 0;
-  for (std::size_t k = 0; k < mechanism_.body_blocks().size(); ++k) {
-    strand::BodyBlock& block = mechanism_.body_blocks()[k];
-    for (const std::size_t b : mechanism_.members(k)) load_body<S>(state, b);
-    kernels_.start(mechanism_.constants(), block);
-    furthest_ = larger(furthest_, kernels_.move(mechanism_.constants(), block));
-  }
+void StrandStep::load_block(const model::State& state, std::size_t block) {
+  for (const std::size_t b : mechanism_.members(block)) load_body<S>(state, b);
+  kernels_.start(mechanism_.constants(), mechanism_.body_blocks()[block]);
+  move_body(block);
 }
 
 template <class S>
@@ -232,8 +228,8 @@ void StrandStep::write(const model::State& state, model::State& next) {
   }
 }
 
-template void StrandStep::load<Plane>(const model::State&);
-template void StrandStep::load<Space>(const model::State&);
+template void StrandStep::load_block<Plane>(const model::State&, std::size_t);
+template void StrandStep::load_block<Space>(const model::State&, std::size_t);
 template double StrandStep::rounding_length<Plane>() const;
 template double StrandStep::rounding_length<Space>() const;
 template void StrandStep::apply_forecast<Plane>(const model::State&);

@@ -69,72 +69,84 @@ bool StrandStep::takes(const model::State& state, const std::vector<int>& rows_i
   return true;
 }
 
-void StrandStep::move_bodies() {
+void StrandStep::move_body(std::size_t block) {
+  furthest_ =
+      larger(furthest_, kernels_.move(mechanism_.constants(), mechanism_.body_blocks()[block]));
+}
+
+void StrandStep::evaluate_joint(std::size_t block) {
+  kernels_.evaluate_joints(mechanism_.joint_blocks()[block], residuals_.g.data(),
+                           residuals_.g_dot.data());
+}
+
+void StrandStep::balance_body(std::size_t block) {
+  strand::BodyBlock& body = mechanism_.body_blocks()[block];
+  kernels_.collect(mechanism_.constants(), body);
+  open_ = larger(open_, kernels_.find_residual(mechanism_.constants(), body));
+}
+
+bool StrandStep::turns_too_far() const { return !(furthest_ <= kFurthestTurn); }
+
+template <class S>
+bool StrandStep::prepare(const model::State& state) {
   furthest_ = 0;
-  for (strand::BodyBlock& block : mechanism_.body_blocks()) {
-    furthest_ = larger(furthest_, kernels_.move(mechanism_.constants(), block));
-  }
-}
-
-bool StrandStep::evaluate_joints() {
-  for (strand::JointBlock& block : mechanism_.joint_blocks()) {
-    kernels_.evaluate_joints(block, residuals_.g.data(), residuals_.g_dot.data());
-  }
-  return furthest_ <= kFurthestTurn;
-}
-
-bool StrandStep::prepare() {
-  if (!evaluate_joints()) return false;
-  for (strand::BodyBlock& block : mechanism_.body_blocks()) {
-    kernels_.freeze(mechanism_.constants(), block);
-  }
-  for (strand::JointBlock& block : mechanism_.joint_blocks()) kernels_.freeze_joints(block);
+  mechanism_.sweep().bodies_first(
+      [&](std::size_t k) { load_block<S>(state, k); }, [&](std::size_t k) { evaluate_joint(k); },
+      [&](std::size_t k) { kernels_.freeze(mechanism_.constants(), mechanism_.body_blocks()[k]); },
+      [&](std::size_t k) { kernels_.freeze_joints(mechanism_.joint_blocks()[k]); });
+  if (turns_too_far()) return false;
   linalg::BlockLu& matrix = mechanism_.matrix();
   matrix.clear();
   for (const strand::PairBlock& block : mechanism_.pair_blocks()) kernels_.add_pairs(block);
   return matrix.factorise() && matrix.pivot_ratio() >= kWeaklyHeld;
 }
 
-double StrandStep::collect_loads(const model::State& state, bool find_residuals) {
-  loads_.evaluate(state, scheme_.evaluation_time(state.t));
-  double open = 0;
-  for (strand::BodyBlock& block : mechanism_.body_blocks()) {
-    kernels_.collect(mechanism_.constants(), block);
-    if (find_residuals) {
-      open = larger(open, kernels_.find_residual(mechanism_.constants(), block));
-    }
+template <class Moving>
+void StrandStep::find_residuals(const model::State& state, Moving&& moving) {
+  open_ = furthest_ = 0;
+  const auto evaluate = [&](std::size_t k) { evaluate_joint(k); };
+  const auto balance = [&](std::size_t k) { balance_body(k); };
+  if (loads_.empty()) {
+    moving(evaluate, balance);
+    return;
   }
-  return open;
+  // Loads see the motion of all that carry them.
+  moving(evaluate, [](std::size_t) {});
+  loads_.evaluate(state, scheme_.evaluation_time(state.t));
+  for (std::size_t k = 0; k < mechanism_.body_blocks().size(); ++k) balance(k);
 }
 
-bool StrandStep::move(StepReport& report, Change& change) {
+bool StrandStep::move(const model::State& state, StepReport& report, Change& change) {
   const strand::Constants& is = mechanism_.constants();
+  const strand::Sweep& sweep = mechanism_.sweep();
+  std::vector<strand::BodyBlock>& bodies = mechanism_.body_blocks();
+  std::vector<strand::JointBlock>& joints = mechanism_.joint_blocks();
   E_ = residuals_.g_dot / scheme_.end_rate - residuals_.g;
   mechanism_.matrix().solve_in_place(E_);
-  for (strand::JointBlock& block : mechanism_.joint_blocks()) kernels_.apply(block, E_.data());
-  for (strand::BodyBlock& block : mechanism_.body_blocks()) kernels_.correct(is, block);
-  for (strand::JointBlock& block : mechanism_.joint_blocks()) {
-    kernels_.find_changes(block, X_.data());
-  }
+  sweep.joints_first([&](std::size_t k) { kernels_.apply(joints[k], E_.data()); },
+                     [&](std::size_t k) { kernels_.correct(is, bodies[k]); },
+                     [&](std::size_t k) { kernels_.find_changes(joints[k], X_.data()); });
   X_ = -X_ - residuals_.g_dot / scheme_.end_rate;
   mechanism_.matrix().solve_in_place(X_);
-  for (strand::JointBlock& block : mechanism_.joint_blocks()) kernels_.apply(block, X_.data());
-  change = {};
-  furthest_ = 0;
-  double interface = 0;
-  for (strand::BodyBlock& block : mechanism_.body_blocks()) {
-    const strand::Largest moved = kernels_.advance(is, block);
-    change.size = larger(change.size, moved.frame);
-    interface = larger(interface, moved.interface);
-    change.motion = larger(change.motion, moved.motion);
-    furthest_ = larger(furthest_, kernels_.move(is, block));
-  }
-  change.size = larger(change.size, interface);
   lambda_ += X_ / scheme_.force;
   mechanism_.is_planar() ? put_multipliers<Plane>() : put_multipliers<Space>();
+  change = {};
+  double interface = 0;
+  find_residuals(state, [&](const auto& evaluate, const auto& balance) {
+    sweep.joints_first([&](std::size_t k) { kernels_.apply(joints[k], X_.data()); },
+                       [&](std::size_t k) {
+                         const strand::Largest moved = kernels_.advance(is, bodies[k]);
+                         change.size = larger(change.size, moved.frame);
+                         interface = larger(interface, moved.interface);
+                         change.motion = larger(change.motion, moved.motion);
+                         move_body(k);
+                       },
+                       evaluate, balance);
+  });
+  change.size = larger(change.size, interface);
   ++report.newton_iterations;
   motion_ = change.motion;
-  return change.size < HUGE_VAL;
+  return change.size < HUGE_VAL && !turns_too_far();
 }
 
 template <class S>
@@ -148,9 +160,9 @@ void StrandStep::put_multipliers() {
   }
 }
 
-bool StrandStep::is_balanced(double open, double motion) const {
+bool StrandStep::is_balanced(double motion) const {
   const double enough = ending_.negligible(motion);
-  if (!(open <= enough)) return false;
+  if (!(open_ <= enough)) return false;
   for (std::size_t row = 0; row < all_rows_.size(); ++row) {
     const auto k = static_cast<Eigen::Index>(row);
     const double length = watch_.is_length(static_cast<int>(row)) ? 1.0 : model_.length;
@@ -163,14 +175,11 @@ bool StrandStep::is_balanced(double open, double motion) const {
 bool StrandStep::settle(const model::State& state, StepReport& report, Change change) {
   Change before;
   for (int iteration = 1;; ++iteration) {
-    if (!evaluate_joints()) return false;
-    const bool is_settled = ending_.is_settled(change, before, mechanism_.matrix().pivot_ratio());
-    const double open = collect_loads(state, !is_settled);
     record_residuals(residuals_, report);
-    if (is_settled) break;
-    if (iteration <= settings_.max_newton && is_balanced(open, change.motion)) break;
+    if (ending_.is_settled(change, before, mechanism_.matrix().pivot_ratio())) break;
+    if (iteration <= settings_.max_newton && is_balanced(change.motion)) break;
     before = change;
-    if (iteration >= settings_.max_newton || !move(report, change)) return false;
+    if (iteration >= settings_.max_newton || !move(state, report, change)) return false;
   }
   return watch_.look(residuals_, all_rows_, report) < 0;
 }
@@ -219,18 +228,18 @@ CouplingRounds::Gap StrandStep::compare_coupling() {
 template <class S>
 bool StrandStep::compute(const model::State& state, StepReport& report) {
   using Row = MeshRows<S>;
-  load<S>(state);
-  if (!prepare()) return false;
+  if (!prepare<S>(state)) return false;
   ending_.begin(rounding_length<S>());
   lambda_ = state.lambda;
   if (forecast_.foretells(state)) apply_forecast<S>(state);
   put_multipliers<S>();
-  move_bodies();
-  if (!evaluate_joints()) return false;
-  collect_loads(state, true);
+  find_residuals(state, [&](const auto& evaluate, const auto& balance) {
+    mechanism_.sweep().bodies_first([&](std::size_t k) { move_body(k); }, evaluate, balance);
+  });
+  if (turns_too_far()) return false;
   record_residuals(residuals_, report);
   Change change;
-  if (!move(report, change) || !settle(state, report, change)) return false;
+  if (!move(state, report, change) || !settle(state, report, change)) return false;
   CouplingRounds rounds(settings_);
   bool has_meshes = false;
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
@@ -253,13 +262,13 @@ bool StrandStep::compute(const model::State& state, StepReport& report) {
       ++solves_[b];
     }
     if (any_solves) ++report.large_solve_rounds;
-    double open = 0;
+    open_ = 0;
     for (strand::BodyBlock& block : mechanism_.body_blocks()) {
       kernels_.take_over(mechanism_.constants(), block);
-      open = larger(open, kernels_.find_residual(mechanism_.constants(), block));
+      open_ = larger(open_, kernels_.find_residual(mechanism_.constants(), block));
     }
-    if (open <= ending_.negligible(motion_)) continue;
-    if (!move(report, change) || !settle(state, report, change)) return false;
+    if (open_ <= ending_.negligible(motion_)) continue;
+    if (!move(state, report, change) || !settle(state, report, change)) return false;
   }
 }
 

@@ -46,9 +46,9 @@ class StrandStep {
 
  private:
   using Change = IterationEnd::Change;
-  /// Everything at the start of a step, and moves the bodies to where it leads.
+  /// Everything of a block at the start of a step, and moves it to where that leads.
   template <class S>
-  void load(const model::State& state);
+  void load_block(const model::State& state, std::size_t block);
   template <class S>
   void load_body(const model::State& state, std::size_t b);
   template <class S>
@@ -68,17 +68,23 @@ class StrandStep {
   template <class S>
   void put_multipliers();
 
-  void move_bodies();
-  /// Residuals of rows and loads on markers. @return false if a body turns too far
-  bool evaluate_joints();
-  bool prepare();
-  /// Loads on bodies. @param state at the start of the step @return the size of their residuals, if
-  /// these are to be found
-  double collect_loads(const model::State& state, bool find_residuals);
-  /// One iteration; bodies are then where it leads. @return false if the motion has diverged
-  bool move(StepReport& report, Change& change);
+  /// Loads everything, and forms the matrix where it leads. @return false if a body turns too far
+  template <class S>
+  bool prepare(const model::State& state);
+  // Turns of a sweep: work on one block.
+  void move_body(std::size_t block);
+  void evaluate_joint(std::size_t block);  ///< residuals of rows, loads on markers
+  void balance_body(std::size_t block);    ///< loads on bodies, and what they leave open
+  /// Residuals of rows and of bodies after their last move, of which `moving` has the turns.
+  /// @param state at the start of the step
+  template <class Moving>
+  void find_residuals(const model::State& state, Moving&& moving);
+  bool turns_too_far() const;
+  /// One iteration; bodies are then where it leads, and residuals belong to that.
+  /// @param state at the start of the step @return false if the motion has diverged
+  bool move(const model::State& state, StepReport& report, Change& change);
   bool settle(const model::State& state, StepReport& report, Change change);
-  bool is_balanced(double open, double motion) const;
+  bool is_balanced(double motion) const;
   model::Coupling& extrapolated(const model::State& state, std::size_t b);
 
   const model::Model& model_;
@@ -96,6 +102,7 @@ class StrandStep {
   IterationEnd ending_;
   double motion_ = 0;    // of the step, at the last iteration [m]
   double furthest_ = 0;  // largest square of half an angle by which something turns
+  double open_ = 0;      // size of the residuals of bodies
   std::vector<long> solves_;
   std::vector<dynamics::BodyMotion> motions_;
   model::Coupling coupling_;  // scratch
