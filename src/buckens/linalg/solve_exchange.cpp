@@ -78,37 +78,69 @@ struct SolveExchange::Participant {
   bool waits() const { return factor != nullptr || table != nullptr; }
 };
 
-/// Whose turn it is: one participant's, or nobody's during the solves.
+/// Who runs, of those that take turns: each wakes the next, and the last that comes to wait does
+/// what all of them wait for. So a turn costs one change of thread.
 struct SolveExchange::Turns {
-  std::mutex mutex;
-  std::condition_variable changed;
-  std::optional<std::size_t> running;
+  explicit Turns(SolveExchange& of) : exchange(of) {}
 
-  void give(std::size_t participant) {
-    std::unique_lock lock(mutex);
-    running = participant;
-    changed.notify_all();
-    changed.wait(lock, [this] { return !running; });
+  /// Where one thread sleeps until it is its turn: each has its own, so that a turn wakes one.
+  class Bed {
+   public:
+    void wake() {
+      {
+        const std::lock_guard lock(mutex_);
+        is_called_ = true;
+      }
+      called_.notify_one();
+    }
+    void sleep() {
+      std::unique_lock lock(mutex_);
+      called_.wait(lock, [this] { return is_called_; });
+      is_called_ = false;
+    }
+
+   private:
+    std::mutex mutex_;
+    std::condition_variable called_;
+    bool is_called_ = false;
+  };
+
+  /// The first from `from` on that neither waits nor has ended.
+  std::optional<std::size_t> next_to_run(std::size_t from) const {
+    for (std::size_t p = from; p < exchange.participants_.size(); ++p) {
+      const Participant& one = *exchange.participants_[p];
+      if (!one.is_done && !one.waits()) return p;
+    }
+    return std::nullopt;
   }
-  void give_back_until_mine(std::size_t participant) {
-    std::unique_lock lock(mutex);
-    running.reset();
-    changed.notify_all();
-    changed.wait(lock, [&] { return running == participant; });
+  /// Gives the turn to the next that can run, after serving all if nobody can. @return whether that
+  /// is the caller itself
+  bool pass(std::size_t caller) {
+    const auto is_done = [](const auto& participant) { return participant->is_done; };
+    const auto& all = exchange.participants_;
+    std::optional<std::size_t> next = next_to_run(caller + 1);
+    while (!next && !std::all_of(all.begin(), all.end(), is_done)) {
+      exchange.serve_waiting();
+      next = next_to_run(0);
+    }
+    running = next;
+    if (next == caller) return true;
+    (next ? *beds[*next] : end).wake();
+    return false;
   }
-  void wait_for(std::size_t participant) {
-    std::unique_lock lock(mutex);
-    changed.wait(lock, [&] { return running == participant; });
+  /// The same, and returns when it is the turn of the caller again.
+  void yield(std::size_t caller) {
+    if (!pass(caller)) beds[caller]->sleep();
   }
-  void give_back() {
-    const std::lock_guard lock(mutex);
-    running.reset();
-    changed.notify_all();
-  }
+
+  SolveExchange& exchange;
+  std::vector<std::unique_ptr<Bed>> beds;  // of participants
+  Bed end;                                 // of the thread in run()
+  std::optional<std::size_t> running;      // written by whoever has the turn
 };
 
 SolveExchange::SolveExchange(MakeFactor make)
-    : make_(std::move(make)), turns_(std::make_unique<Turns>()) {}
+    : make_(std::move(make)), turns_(std::make_unique<Turns>(*this)) {}
 SolveExchange::~SolveExchange() = default;
 
 std::shared_ptr<const Factor> SolveExchange::factor(const SparseMatrix& A) {
@@ -134,7 +166,7 @@ void SolveExchange::solve(const Factor& factor, std::span<double* const> vectors
   self.factor = &factor;
   self.vectors = vectors;
   self.pool = pool;
-  turns_->give_back_until_mine(*caller);
+  turns_->yield(*caller);
   if (self.refusal) std::rethrow_exception(std::exchange(self.refusal, nullptr));
 }
 
@@ -150,31 +182,33 @@ void SolveExchange::for_pieces(const void* table, const RowParts& rows, TaskPool
   self.rows = &rows;
   self.piece = f;
   self.pool = pool;
-  turns_->give_back_until_mine(*caller);
+  turns_->yield(*caller);
 }
 
 void SolveExchange::run(const std::vector<std::function<void()>>& participants) {
   participants_.clear();
+  turns_->beds.clear();
   for (std::size_t p = 0; p < participants.size(); ++p) {
     participants_.push_back(std::make_unique<Participant>());
-    Participant& self = *participants_.back();
+    turns_->beds.push_back(std::make_unique<Turns::Bed>());
+  }
+  for (std::size_t p = 0; p < participants.size(); ++p) {
+    Participant& self = *participants_[p];
     self.thread = std::thread([this, p, &self, &work = participants[p]] {
-      turns_->wait_for(p);
+      turns_->beds[p]->sleep();
       try {
         work();
       } catch (...) {
         self.error = std::current_exception();
       }
       self.is_done = true;
-      turns_->give_back();
+      turns_->pass(p);
     });
   }
-  const auto is_done = [](const auto& participant) { return participant->is_done; };
-  while (!std::all_of(participants_.begin(), participants_.end(), is_done)) {
-    for (std::size_t p = 0; p < participants_.size(); ++p) {
-      if (!participants_[p]->is_done && !participants_[p]->waits()) turns_->give(p);
-    }
-    serve_waiting();
+  if (!participants.empty()) {
+    turns_->running = 0;
+    turns_->beds.front()->wake();
+    turns_->end.sleep();
   }
   for (const auto& participant : participants_) participant->thread.join();
   for (const auto& participant : participants_) {
