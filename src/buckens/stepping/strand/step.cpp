@@ -79,10 +79,14 @@ void StrandStep::evaluate_joint(std::size_t block) {
                            residuals_.g_dot.data());
 }
 
-void StrandStep::balance_body(std::size_t block) {
-  strand::BodyBlock& body = mechanism_.body_blocks()[block];
-  kernels_.collect(mechanism_.constants(), body);
-  open_ = larger(open_, kernels_.find_residual(mechanism_.constants(), body));
+void StrandStep::balance_bodies(const model::State& state, bool finds_residuals) {
+  loads_.evaluate(state, scheme_.evaluation_time(state.t));
+  open_ = 0;
+  for (strand::BodyBlock& block : mechanism_.body_blocks()) {
+    kernels_.collect(mechanism_.constants(), block);
+    if (!finds_residuals) continue;
+    open_ = larger(open_, kernels_.find_residual(mechanism_.constants(), block));
+  }
 }
 
 bool StrandStep::turns_too_far() const { return !(furthest_ <= kFurthestTurn); }
@@ -101,22 +105,7 @@ bool StrandStep::prepare(const model::State& state) {
   return matrix.factorise() && matrix.pivot_ratio() >= kWeaklyHeld;
 }
 
-template <class Moving>
-void StrandStep::find_residuals(const model::State& state, Moving&& moving) {
-  open_ = furthest_ = 0;
-  const auto evaluate = [&](std::size_t k) { evaluate_joint(k); };
-  const auto balance = [&](std::size_t k) { balance_body(k); };
-  if (loads_.empty()) {
-    moving(evaluate, balance);
-    return;
-  }
-  // Loads see the motion of all that carry them.
-  moving(evaluate, [](std::size_t) {});
-  loads_.evaluate(state, scheme_.evaluation_time(state.t));
-  for (std::size_t k = 0; k < mechanism_.body_blocks().size(); ++k) balance(k);
-}
-
-bool StrandStep::move(const model::State& state, StepReport& report, Change& change) {
+bool StrandStep::move(StepReport& report, Change& change) {
   const strand::Constants& is = mechanism_.constants();
   const strand::Sweep& sweep = mechanism_.sweep();
   std::vector<strand::BodyBlock>& bodies = mechanism_.body_blocks();
@@ -132,17 +121,16 @@ bool StrandStep::move(const model::State& state, StepReport& report, Change& cha
   mechanism_.is_planar() ? put_multipliers<Plane>() : put_multipliers<Space>();
   change = {};
   double interface = 0;
-  find_residuals(state, [&](const auto& evaluate, const auto& balance) {
-    sweep.joints_first([&](std::size_t k) { kernels_.apply(joints[k], X_.data()); },
-                       [&](std::size_t k) {
-                         const strand::Largest moved = kernels_.advance(is, bodies[k]);
-                         change.size = larger(change.size, moved.frame);
-                         interface = larger(interface, moved.interface);
-                         change.motion = larger(change.motion, moved.motion);
-                         move_body(k);
-                       },
-                       evaluate, balance);
-  });
+  furthest_ = 0;
+  sweep.joints_first([&](std::size_t k) { kernels_.apply(joints[k], X_.data()); },
+                     [&](std::size_t k) {
+                       const strand::Largest moved = kernels_.advance(is, bodies[k]);
+                       change.size = larger(change.size, moved.frame);
+                       interface = larger(interface, moved.interface);
+                       change.motion = larger(change.motion, moved.motion);
+                       move_body(k);
+                     },
+                     [&](std::size_t k) { evaluate_joint(k); });
   change.size = larger(change.size, interface);
   ++report.newton_iterations;
   motion_ = change.motion;
@@ -175,11 +163,13 @@ bool StrandStep::is_balanced(double motion) const {
 bool StrandStep::settle(const model::State& state, StepReport& report, Change change) {
   Change before;
   for (int iteration = 1;; ++iteration) {
+    const bool is_settled = ending_.is_settled(change, before, mechanism_.matrix().pivot_ratio());
+    balance_bodies(state, !is_settled);
     record_residuals(residuals_, report);
-    if (ending_.is_settled(change, before, mechanism_.matrix().pivot_ratio())) break;
+    if (is_settled) break;
     if (iteration <= settings_.max_newton && is_balanced(change.motion)) break;
     before = change;
-    if (iteration >= settings_.max_newton || !move(state, report, change)) return false;
+    if (iteration >= settings_.max_newton || !move(report, change)) return false;
   }
   return watch_.look(residuals_, all_rows_, report) < 0;
 }
@@ -233,13 +223,14 @@ bool StrandStep::compute(const model::State& state, StepReport& report) {
   lambda_ = state.lambda;
   if (forecast_.foretells(state)) apply_forecast<S>(state);
   put_multipliers<S>();
-  find_residuals(state, [&](const auto& evaluate, const auto& balance) {
-    mechanism_.sweep().bodies_first([&](std::size_t k) { move_body(k); }, evaluate, balance);
-  });
+  furthest_ = 0;
+  mechanism_.sweep().bodies_first([&](std::size_t k) { move_body(k); },
+                                  [&](std::size_t k) { evaluate_joint(k); });
   if (turns_too_far()) return false;
+  balance_bodies(state, true);
   record_residuals(residuals_, report);
   Change change;
-  if (!move(state, report, change) || !settle(state, report, change)) return false;
+  if (!move(report, change) || !settle(state, report, change)) return false;
   CouplingRounds rounds(settings_);
   bool has_meshes = false;
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
@@ -268,7 +259,7 @@ bool StrandStep::compute(const model::State& state, StepReport& report) {
       open_ = larger(open_, kernels_.find_residual(mechanism_.constants(), block));
     }
     if (open_ <= ending_.negligible(motion_)) continue;
-    if (!move(state, report, change) || !settle(state, report, change)) return false;
+    if (!move(report, change) || !settle(state, report, change)) return false;
   }
 }
 

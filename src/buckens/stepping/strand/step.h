@@ -74,15 +74,13 @@ class StrandStep {
   // Turns of a sweep: work on one block.
   void move_body(std::size_t block);
   void evaluate_joint(std::size_t block);  ///< residuals of rows, loads on markers
-  void balance_body(std::size_t block);    ///< loads on bodies, and what they leave open
-  /// Residuals of rows and of bodies after their last move, of which `moving` has the turns.
+  /// Loads on bodies, and what they leave open if that is to be found.
   /// @param state at the start of the step
-  template <class Moving>
-  void find_residuals(const model::State& state, Moving&& moving);
+  void balance_bodies(const model::State& state, bool finds_residuals);
   bool turns_too_far() const;
-  /// One iteration; bodies are then where it leads, and residuals belong to that.
-  /// @param state at the start of the step @return false if the motion has diverged
-  bool move(const model::State& state, StepReport& report, Change& change);
+  /// One iteration; bodies and residuals of joints are then where it leads. @return false if the
+  /// motion has diverged
+  bool move(StepReport& report, Change& change);
   bool settle(const model::State& state, StepReport& report, Change change);
   bool is_balanced(double motion) const;
   model::Coupling& extrapolated(const model::State& state, std::size_t b);
