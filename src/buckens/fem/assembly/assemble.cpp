@@ -8,6 +8,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/assembly/node_rotations.h"
+#include "buckens/fem/assembly/stiffness_assembly.h"
 #include "buckens/fem/element/node_label.h"
 
 namespace buckens::fem {
@@ -228,10 +229,9 @@ FeModel assemble(const Structure& structure, std::optional<spatial::Plane> plana
   for (const auto& block : fe.blocks) block->check(mesh);
 
   integrate_inertia(fe.blocks, mesh, fe);
-  StiffnessSum stiffness;
-  for (const auto& block : fe.blocks) block->add_stiffness(mesh, stiffness);
-  fe.K = to_sparse(fe.dofs.num_dofs, stiffness.K);
-  fe.K_damping = to_sparse(fe.dofs.num_dofs, stiffness.K_damping);
+  StiffnessMatrices stiffness = assemble_stiffness(fe.blocks, mesh);
+  fe.K.swap(stiffness.K);
+  fe.K_damping.swap(stiffness.K_damping);
   set_mass_damping(fe);
   return fe;
 }

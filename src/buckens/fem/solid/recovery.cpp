@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <utility>
 
+#include "buckens/fem/assembly/element_pieces.h"
 #include "buckens/fem/element/block.h"
 
 namespace buckens::fem {
@@ -29,6 +32,32 @@ void visit_solids(const FeModel& fe, Visitor&& visit) {
   for (const auto& block : fe.blocks) {
     if (!block->is_solid()) continue;
     for (int e = 0; e < block->num_elements(); ++e) visit(*block, e, number++);
+  }
+}
+
+/// Calls visit(entry) for the entries of the stresses, row by row, columns ascending: six rows for
+/// a solid, then twelve for a shell.
+template <class Visitor>
+void visit_stress_rows(const FeModel& fe, int num_solids, Visitor&& visit) {
+  int first_row = 0;
+  for (const bool of_shells : {false, true}) {
+    if (of_shells) first_row = 6 * num_solids;
+    for (const auto& block : fe.blocks) {
+      if (of_shells ? !block->is_shell() : !block->is_solid()) continue;
+      const int rows = of_shells ? 12 : 6;
+      visit_pieces(*block, fe.nodes, [&](const ElementBlock& piece, int first) {
+        std::vector<linalg::Triplet> listed;
+        piece.add_stress_rows({fe.nodes, fe.dofs}, 0, listed);
+        std::sort(listed.begin(), listed.end(), [](const auto& a, const auto& b) {
+          return std::pair(a.row(), a.col()) < std::pair(b.row(), b.col());
+        });
+        for (const linalg::Triplet& entry : listed) {
+          visit(
+              linalg::Triplet(first_row + rows * first + entry.row(), entry.col(), entry.value()));
+        }
+      });
+      first_row += rows * block->num_elements();
+    }
   }
 }
 
@@ -111,21 +140,22 @@ std::vector<std::vector<int>> solids_at_nodes(const FeModel& fe) {
 }
 
 SolidRecovery::SolidRecovery(const FeModel& fe) {
-  std::vector<linalg::Triplet> triplets, of_shells;
   for (const auto& block : fe.blocks) {
-    if (block->is_solid()) {
-      block->add_stress_rows({fe.nodes, fe.dofs}, num_solids_, triplets);
-      num_solids_ += block->num_elements();
-    } else if (block->is_shell()) {
-      block->add_stress_rows({fe.nodes, fe.dofs}, num_shells_, of_shells);
-      num_shells_ += block->num_elements();
-    }
-  }
-  for (const linalg::Triplet& entry : of_shells) {
-    triplets.emplace_back(6 * num_solids_ + entry.row(), entry.col(), entry.value());
+    if (block->is_solid()) num_solids_ += block->num_elements();
+    if (block->is_shell()) num_shells_ += block->num_elements();
   }
   rows_.resize(6 * num_solids_ + 12 * num_shells_, fe.dofs.num_dofs);
-  rows_.setFromTriplets(triplets.begin(), triplets.end());
+  int* starts = rows_.outerIndexPtr();
+  std::fill_n(starts, rows_.rows() + 1, 0);
+  visit_stress_rows(fe, num_solids_,
+                    [&](const linalg::Triplet& entry) { ++starts[entry.row() + 1]; });
+  std::partial_sum(starts, starts + rows_.rows() + 1, starts);
+  rows_.resizeNonZeros(starts[rows_.rows()]);
+  int place = 0;
+  visit_stress_rows(fe, num_solids_, [&](const linalg::Triplet& entry) {
+    rows_.innerIndexPtr()[place] = entry.col();
+    rows_.valuePtr()[place++] = entry.value();
+  });
 }
 
 linalg::Matrix SolidRecovery::stresses(const linalg::Vector& d) const {
