@@ -38,8 +38,15 @@ bool make(const BuckensGridMatrix& matrix, Handle& handle) {
   }
   if (start_petsc() != 0) return false;
   const KeptErrors errors;
-  const Rows rows{matrix.size,  matrix.size,        matrix.starts,  matrix.rows, matrix.values,
-                  matrix.block, matrix.num_motions, matrix.motions, matrix.size, matrix.options};
+  Rows rows;
+  rows.size = rows.count = rows.stride = matrix.size;
+  rows.starts = matrix.all.starts;
+  rows.columns = matrix.all.rows;
+  rows.values = matrix.all.values;
+  rows.block = matrix.block;
+  rows.num_motions = matrix.num_motions;
+  rows.motions = matrix.motions;
+  rows.options = matrix.options;
   return make_solver(PETSC_COMM_SELF, rows, handle.own) == 0;
 }
 
@@ -83,9 +90,13 @@ void plugin_serve() { Ranks::join().serve(); }
 
 void plugin_leave() { Ranks::join().leave(); }
 
-const BuckensGridPlugin plugin = {kBuckensGridVersion, plugin_name,  plugin_make,
-                                  plugin_solve,        plugin_bytes, plugin_release,
-                                  plugin_join,         plugin_serve, plugin_leave};
+void plugin_traffic(BuckensGridTraffic* traffic) {
+  *traffic = ranks() != nullptr ? ranks()->traffic() : BuckensGridTraffic{};
+}
+
+const BuckensGridPlugin plugin = {kBuckensGridVersion, plugin_name,    plugin_make, plugin_solve,
+                                  plugin_bytes,        plugin_release, plugin_join, plugin_serve,
+                                  plugin_leave,        plugin_traffic};
 
 }  // namespace
 

@@ -69,8 +69,10 @@ struct Ranks::Shared {
   std::map<int, std::unique_ptr<Part>> parts;  // by number
 };
 
+/// Rows of a symmetric matrix, which are its columns.
 struct Ranks::OwnRows {
-  std::vector<int> starts, columns;
+  BuckensGridColumns columns{};  // those below, or the first process's
+  std::vector<int> starts, rows;
   std::vector<double> values, motions;
 };
 
@@ -98,6 +100,12 @@ void Ranks::give(const Order& order) {
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Ibcast(&copy, sizeof copy, MPI_BYTE, 0, orders_, &request);
   MPI_Wait(&request, MPI_STATUS_IGNORE);
+  count_messages(count_ - 1, sizeof copy);
+}
+
+void Ranks::count_messages(int messages, double bytes_each) {
+  traffic_.messages += messages;
+  traffic_.bytes += messages * bytes_each;
 }
 
 /// Sleeps in between: the first process needs the processors for everything that is not shared.
@@ -173,6 +181,7 @@ bool Ranks::has_failed_somewhere(bool has_failed) {
   const int mine = has_failed ? rank_ : count_;
   int first = count_;
   MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, work_);
+  count_messages(2 * (count_ - 1), sizeof mine);  // to the first process, and its answer
   if (first == count_) return false;
   if (rank_ == first) std::snprintf(text.data(), text.size(), "%s", take_reason().c_str());
   MPI_Bcast(text.data(), static_cast<int>(text.size()), MPI_CHAR, first, work_);
@@ -180,39 +189,72 @@ bool Ranks::has_failed_somewhere(bool has_failed) {
   return true;
 }
 
-/// Of the first process: gives the others their rows.
-void Ranks::send_rows(const Part& part, const BuckensGridMatrix& matrix) {
-  for (int k = 1; k < count_; ++k) {
+/// Of the first process: gives the others their rows, one after the other, and finds its own last,
+/// so that it never holds those of two.
+bool Ranks::send_rows(const Part& part, const BuckensGridMatrix& matrix, OwnRows& own) {
+  bool has_memory = true;
+  for (int k = count_ - 1; k >= 0; --k) {
     const int from = part.first[k];
-    const int to = part.first[k + 1];
-    const auto rows = static_cast<std::size_t>(to - from);
-    const auto entries = static_cast<std::size_t>(matrix.starts[to] - matrix.starts[from]);
-    send(matrix.starts + from, rows + 1, k, work_);
-    send(matrix.rows + matrix.starts[from], entries, k, work_);
-    send(matrix.values + matrix.starts[from], entries, k, work_);
+    const int rows = part.counts[k];
+    BuckensGridColumns columns{};
+    if (matrix.give != nullptr) {
+      matrix.give(matrix.source, from, from + rows, &columns);
+    } else {
+      columns = matrix.all;
+      columns.starts += from;
+    }
+    has_memory = has_memory && columns.starts != nullptr;
+    if (k == 0) {
+      own.columns = columns;
+      break;
+    }
+    const int first = has_memory ? columns.starts[0] : 0;
+    const int entries = has_memory ? columns.starts[rows] - first : -1;
+    send_counted(&entries, 1, k);
+    if (has_memory) {
+      send_counted(columns.starts, static_cast<std::size_t>(rows) + 1, k);
+      send_counted(columns.rows + first, static_cast<std::size_t>(entries), k);
+      send_counted(columns.values + first, static_cast<std::size_t>(entries), k);
+    }
     for (int m = 0; m < std::min(matrix.num_motions, kMostMotions); ++m) {
-      send(matrix.motions + static_cast<std::size_t>(m) * matrix.size + from, rows, k, work_);
+      send_counted(matrix.motions + static_cast<std::size_t>(m) * matrix.size + from,
+                   static_cast<std::size_t>(rows), k);
     }
   }
+  return has_memory;
+}
+
+template <class T>
+void Ranks::send_counted(const T* values, std::size_t count, int to) {
+  send(values, count, to, work_);
+  traffic_.messages += 1;
+  traffic_.bytes += static_cast<double>(count * sizeof(T));
 }
 
 /// Of the others: what send_rows() sends.
-void Ranks::receive_rows(int count, int num_motions, OwnRows& own) {
-  own.starts.resize(static_cast<std::size_t>(count) + 1);
-  receive(own.starts.data(), own.starts.size(), 0, work_);
-  for (std::size_t k = own.starts.size(); k-- > 0;) own.starts[k] -= own.starts[0];
-  own.columns.resize(static_cast<std::size_t>(own.starts.back()));
-  own.values.resize(own.columns.size());
-  receive(own.columns.data(), own.columns.size(), 0, work_);
-  receive(own.values.data(), own.values.size(), 0, work_);
+bool Ranks::receive_rows(int count, int num_motions, OwnRows& own) {
+  int entries = 0;
+  receive(&entries, 1, 0, work_);
+  if (entries >= 0) {
+    own.starts.resize(static_cast<std::size_t>(count) + 1);
+    own.rows.resize(static_cast<std::size_t>(entries));
+    own.values.resize(own.rows.size());
+    receive(own.starts.data(), own.starts.size(), 0, work_);
+    receive(own.rows.data(), own.rows.size(), 0, work_);
+    receive(own.values.data(), own.values.size(), 0, work_);
+    for (std::size_t k = own.starts.size(); k-- > 0;) own.starts[k] -= own.starts[0];
+    own.columns = {own.starts.data(), own.rows.data(), own.values.data()};
+  }
   own.motions.resize(static_cast<std::size_t>(count) * num_motions);
   for (int m = 0; m < num_motions; ++m) {
     receive(own.motions.data() + static_cast<std::size_t>(m) * count,
             static_cast<std::size_t>(count), 0, work_);
   }
+  return entries >= 0;
 }
 
-bool Ranks::make_together(const Order& order, const BuckensGridMatrix* matrix) {
+/// Which rows are whose: equal runs of nodes.
+std::unique_ptr<Ranks::Part> Ranks::divide(const Order& order) const {
   auto part = std::make_unique<Part>();
   const int nodes = order.size / order.block;
   for (int k = 0; k <= count_; ++k) {
@@ -220,32 +262,35 @@ bool Ranks::make_together(const Order& order, const BuckensGridMatrix* matrix) {
   }
   part->first.back() = order.size;
   for (int k = 0; k < count_; ++k) part->counts.push_back(part->first[k + 1] - part->first[k]);
+  return part;
+}
+
+bool Ranks::make_together(const Order& order, const BuckensGridMatrix* matrix) {
+  std::unique_ptr<Part> part = divide(order);
   const int count = part->counts[rank_];
   std::string options(static_cast<std::size_t>(order.options), ' ');
   if (matrix != nullptr && matrix->options != nullptr) options = matrix->options;
   MPI_Bcast(options.data(), order.options, MPI_CHAR, 0, work_);
+  OwnRows own;
+  const bool is_complete = matrix != nullptr ? send_rows(*part, *matrix, own)
+                                             : receive_rows(count, order.num_motions, own);
+  if (!is_complete) set_reason("there is too little memory for the rows of the matrix");
+  if (has_failed_somewhere(!is_complete)) return false;
   Rows rows;
   rows.size = order.size;
   rows.count = count;
   rows.block = order.block;
   rows.num_motions = order.num_motions;
   rows.options = options.c_str();
-  OwnRows own;
-  if (matrix != nullptr) {
-    send_rows(*part, *matrix);
-    rows.starts = matrix->starts;
-    rows.columns = matrix->rows;
-    rows.values = matrix->values;
-    rows.motions = matrix->motions;
-    rows.stride = order.size;
-  } else {
-    receive_rows(count, order.num_motions, own);
-    rows.starts = own.starts.data();
-    rows.columns = own.columns.data();
-    rows.values = own.values.data();
-    rows.motions = own.motions.data();
-    rows.stride = count;
-  }
+  rows.starts = own.columns.starts;
+  rows.columns = own.columns.rows;
+  rows.values = own.columns.values;
+  rows.motions = matrix != nullptr ? matrix->motions : own.motions.data();
+  rows.stride = matrix != nullptr ? order.size : count;
+  rows.release = [&own, matrix] {
+    own = OwnRows();
+    if (matrix != nullptr && matrix->give != nullptr) matrix->give(matrix->source, 0, 0, nullptr);
+  };
   bool has_failed = false;
   {
     const KeptErrors errors;
@@ -275,6 +320,8 @@ bool Ranks::solve_together(const Order& order, const double* b, double* x,
   const auto scatter = [&](const double* from, std::vector<double>& to) {
     MPI_Scatterv(from, part.counts.data(), part.first.data(), MPI_DOUBLE, to.data(), count,
                  MPI_DOUBLE, 0, work_);
+    traffic_.messages += count_ - 1;
+    traffic_.bytes += sizeof(double) * static_cast<double>(part.first[count_] - part.first[1]);
   };
   scatter(b, part.b);
   if (!part.solver.is_direct) scatter(x, part.x);
@@ -287,6 +334,8 @@ bool Ranks::solve_together(const Order& order, const double* b, double* x,
   if (has_failed_somewhere(has_failed)) return false;
   MPI_Gatherv(part.x.data(), count, MPI_DOUBLE, x, part.counts.data(), part.first.data(),
               MPI_DOUBLE, 0, work_);
+  traffic_.messages += count_ - 1;
+  traffic_.bytes += sizeof(double) * static_cast<double>(part.first[count_] - part.first[1]);
   return true;
 }
 

@@ -27,7 +27,7 @@ class Ranks {
   /// Of the first: lets the others end, and ends MPI.
   void leave();
 
-  /// Of the first, with a whole matrix: a solver that all have a part of.
+  /// Of the first: a solver that all have a part of.
   /// @return number of the solver, −1 after an error, which take_reason() tells
   int make(const BuckensGridMatrix& matrix);
   /// @return whether it was possible; otherwise take_reason() tells why not
@@ -35,6 +35,8 @@ class Ranks {
              BuckensGridOutcome& outcome);
   double bytes(int number);
   void release(int number);
+  /// Of the first: so far.
+  BuckensGridTraffic traffic() const { return traffic_; }
 
  private:
   struct Order;
@@ -45,8 +47,12 @@ class Ranks {
   Ranks();
   void give(const Order& order);
   Order wait_for_order();
-  void send_rows(const Part& part, const BuckensGridMatrix& matrix);
-  void receive_rows(int count, int num_motions, OwnRows& own);
+  void count_messages(int messages, double bytes_each);
+  template <class T>
+  void send_counted(const T* values, std::size_t count, int to);
+  std::unique_ptr<Part> divide(const Order& order) const;
+  bool send_rows(const Part& part, const BuckensGridMatrix& matrix, OwnRows& own);
+  bool receive_rows(int count, int num_motions, OwnRows& own);
   bool make_together(const Order& order, const BuckensGridMatrix* matrix);
   bool solve_together(const Order& order, const double* b, double* x, BuckensGridOutcome& outcome);
   bool has_failed_somewhere(bool has_failed);
@@ -54,6 +60,7 @@ class Ranks {
   MPI_Comm orders_ = MPI_COMM_NULL, work_ = MPI_COMM_NULL;
   int rank_ = 0, count_ = 1;
   int next_ = 0;
+  BuckensGridTraffic traffic_{};
   std::unique_ptr<Shared> shared_;
 };
 

@@ -142,6 +142,22 @@ PetscErrorCode take_matrix(MPI_Comm comm, const Rows& rows, Mat* matrix) {
   PetscFunctionReturn(0);
 }
 
+/// A factor needs the matrix no more.
+PetscErrorCode keep_factor_only(Solver& solver) {
+  PC preconditioner = nullptr;
+  PetscBool has_factor = PETSC_FALSE;
+  PetscFunctionBeginUser;
+  PetscCall(KSPGetPC(solver.iteration, &preconditioner));
+  PetscCall(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(preconditioner), &has_factor,
+                                      PCCHOLESKY, PCLU, ""));
+  if (has_factor == PETSC_FALSE) PetscFunctionReturn(0);
+  PetscCall(PCFactorGetMatrix(preconditioner, &solver.factor));
+  PetscCall(PetscObjectReference(reinterpret_cast<PetscObject>(solver.factor)));
+  PetscCall(KSPDestroy(&solver.iteration));
+  PetscCall(MatDestroy(&solver.matrix));
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode set_up(MPI_Comm comm, Solver& solver) {
   PC preconditioner = nullptr;
   PCFailedReason failure = PC_NOERROR;
@@ -166,7 +182,10 @@ PetscErrorCode set_up(MPI_Comm comm, Solver& solver) {
   PetscCall(KSPSetUp(solver.iteration));
   PetscCall(KSPSetUpOnBlocks(solver.iteration));
   PetscCall(PCGetFailedReason(preconditioner, &failure));
-  if (failure == PC_NOERROR) PetscFunctionReturn(0);
+  if (failure == PC_NOERROR) {
+    if (solver.is_direct) PetscCall(keep_factor_only(solver));
+    PetscFunctionReturn(0);
+  }
   reason = failure == PC_FACTOR_OUTMEMORY
                ? "there is too little memory for the factor"
                : "its factor cannot be computed: the matrix is not positive definite";
@@ -177,6 +196,7 @@ PetscErrorCode make(MPI_Comm comm, const Rows& rows, Solver& solver) {
   PetscFunctionBeginUser;
   PetscCall(take_matrix(comm, rows, &solver.matrix));
   PetscCall(set_motions(rows, solver.matrix));
+  rows.release();
   PetscCall(MatCreateVecs(solver.matrix, &solver.x, &solver.b));
   PetscCall(set_up(comm, solver));
   PetscFunctionReturn(0);
@@ -186,6 +206,7 @@ PetscErrorCode make(MPI_Comm comm, const Rows& rows, Solver& solver) {
 
 Solver::~Solver() {
   (void)KSPDestroy(&iteration);
+  (void)MatDestroy(&factor);
   (void)VecDestroy(&b);
   (void)VecDestroy(&x);
   (void)MatDestroy(&matrix);
@@ -210,6 +231,15 @@ PetscErrorCode solve(Solver& solver, const double* b, double* x, const BuckensGr
   PetscFunctionBeginUser;
   solver.limits = limits;
   solver.first = solver.last = 0;
+  if (solver.factor != nullptr) {
+    PetscCall(VecPlaceArray(solver.b, b));
+    PetscCall(VecPlaceArray(solver.x, x));
+    PetscCall(MatSolve(solver.factor, solver.b, solver.x));
+    PetscCall(VecResetArray(solver.b));
+    PetscCall(VecResetArray(solver.x));
+    outcome = {1, 0, 0, 1};
+    PetscFunctionReturn(0);
+  }
   PetscCall(KSPSetTolerances(solver.iteration, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT,
                              limits.most_iterations));
   PetscCall(VecPlaceArray(solver.b, b));
@@ -229,6 +259,9 @@ double bytes_of(const Solver& solver) {
   PC preconditioner = nullptr;
   PetscBool is_grid = PETSC_FALSE;
   MatInfo info;
+  if (solver.factor != nullptr) {
+    return MatGetInfo(solver.factor, MAT_GLOBAL_SUM, &info) == 0 ? info.nz_used * 8.0 : 0;
+  }
   if (KSPGetPC(solver.iteration, &preconditioner) != 0) return 0;
   (void)PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(preconditioner), &is_grid, PCMG,
                                   PCGAMG, "");
@@ -239,10 +272,7 @@ double bytes_of(const Solver& solver) {
     if (MatGetInfo(solver.matrix, MAT_GLOBAL_SUM, &info) != 0) return 0;
     return (operators - 1) * info.nz_used * 12.0;
   }
-  Mat factor = nullptr;
-  if (!solver.is_direct || PCFactorGetMatrix(preconditioner, &factor) != 0) return 0;
-  if (factor == nullptr || MatGetInfo(factor, MAT_GLOBAL_SUM, &info) != 0) return 0;
-  return info.nz_used * 8.0;
+  return 0;
 }
 
 PetscErrorCode start_petsc() {

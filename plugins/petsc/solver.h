@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include <petscksp.h>
@@ -21,6 +22,8 @@ struct Rows {
   const double* motions = nullptr;  ///< of these rows
   int stride = 0;                   ///< from motion to motion
   const char* options = nullptr;    ///< null or empty: none
+  /// Called when they have been copied: only several processes copy them.
+  std::function<void()> release = [] {};
 };
 
 /// A solver of PETSc's for one matrix, on one process or on several that call its functions
@@ -29,6 +32,7 @@ struct Solver {
   PetscOptions options = nullptr;
   Mat matrix = nullptr;
   KSP iteration = nullptr;
+  Mat factor = nullptr;  ///< then there is neither matrix nor iteration
   Vec b = nullptr, x = nullptr;
   BuckensGridLimits limits{};
   double first = 0, last = 0;

@@ -30,6 +30,19 @@ Sieve make_sieve(const std::string& body, const fem::FeModel& fe) {
   return Sieve(Phi, fe.M);
 }
 
+/// The model, without copies of its large matrices, which Eigen's moves make.
+fem::FeModel taken(fem::FeModel& from) {
+  linalg::SparseMatrix M, K, K_damping;
+  M.swap(from.M);
+  K.swap(from.K);
+  K_damping.swap(from.K_damping);
+  fem::FeModel out = std::move(from);
+  out.M.swap(M);
+  out.K.swap(K);
+  out.K_damping.swap(K_damping);
+  return out;
+}
+
 linalg::SparseMatrix damping_matrix(const fem::FeModel& fe) {
   linalg::SparseMatrix C(fe.M.rows(), fe.M.cols());
   if (fe.mass_damping > 0.0) C = fe.mass_damping * fe.M;
@@ -40,7 +53,7 @@ linalg::SparseMatrix damping_matrix(const fem::FeModel& fe) {
 }  // namespace
 
 FlexiblePart::FlexiblePart(const std::string& body, fem::FeModel model, CouplingChoice choice)
-    : fe(std::move(model)),
+    : fe(taken(model)),
       sieve(make_sieve(body, fe)),
       invariants(fe.shape),
       C(damping_matrix(fe)),

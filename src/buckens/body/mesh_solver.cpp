@@ -2,7 +2,6 @@
 #include "buckens/body/mesh_solver.h"
 
 #include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -38,6 +37,11 @@ SolverDecision decide_solver(const SolverChoice& choice, const linalg::SparseMat
                              missing)};
 }
 
+SolverDecision decide_solver(const SolverChoice& choice, const linalg::MatrixSum& A) {
+  if (choice.kind != SolverKind::automatic) return {choice.kind == SolverKind::iterative, {}};
+  return decide_solver(choice, A.whole());
+}
+
 int variables_per_node(const fem::DofMap& dofs, Eigen::Index size) {
   if (dofs.node_dofs.empty() || dofs.num_dofs != size) return 1;
   const auto nodes = static_cast<int>(dofs.node_dofs.size());
@@ -57,18 +61,25 @@ int variables_per_node(const fem::DofMap& dofs, Eigen::Index size) {
 }
 
 std::shared_ptr<const linalg::Factor> make_iterative(const FlexiblePart& part,
-                                                     linalg::SparseMatrix A) {
+                                                     const linalg::MatrixSum& A) {
   linalg::IterationSettings settings;
-  settings.block = variables_per_node(part.fe.dofs, A.rows());
+  settings.block = variables_per_node(part.fe.dofs, A.size());
   settings.options = part.solver.petsc;
-  return std::make_shared<const linalg::IterativeSolver>(std::move(A), part.sieve.Phi(), settings);
+  return std::make_shared<const linalg::IterativeSolver>(A, part.sieve.Phi(), settings);
+}
+
+std::shared_ptr<const linalg::Factor> make_iterative(const FlexiblePart& part,
+                                                     const linalg::SparseMatrix& A) {
+  linalg::MatrixSum alone;
+  alone.add(1.0, A);
+  return make_iterative(part, alone);
 }
 
 linalg::MakeFactor solver_of(const FlexiblePart& part) {
   if (part.solver.kind == SolverKind::direct) return linalg::make_large_factor;
   return [&part](const linalg::SparseMatrix& A) -> std::shared_ptr<const linalg::Factor> {
-    if (decide_solver(part.solver, A).iterates) return make_iterative(part, A);
-    return linalg::make_large_factor(A);
+    if (!decide_solver(part.solver, A).iterates) return linalg::make_large_factor(A);
+    return make_iterative(part, A);
   };
 }
 

@@ -6,6 +6,7 @@
 #include "buckens/base/usable_memory.h"
 #include "buckens/body/body.h"
 #include "buckens/linalg/factor.h"
+#include "buckens/linalg/matrix_sum.h"
 
 namespace buckens::body {
 
@@ -21,12 +22,17 @@ struct SolverDecision {
 SolverDecision decide_solver(const SolverChoice& choice, const linalg::SparseMatrix& A,
                              double memory = base::usable_memory());
 
+/// The same of a sum, which is formed whole only where its pattern has to be known.
+SolverDecision decide_solver(const SolverChoice& choice, const linalg::MatrixSum& A);
+
 /// Solves by iteration, with the rigid motions of the body as those of little energy.
 /// @param A positive definite, of the variables of the body
 /// @throws IoError if there is no iterative solver
 /// @throws NumericalError if it cannot be made, as with unknown options of PETSc
 std::shared_ptr<const linalg::Factor> make_iterative(const FlexiblePart& part,
-                                                     linalg::SparseMatrix A);
+                                                     const linalg::MatrixSum& A);
+std::shared_ptr<const linalg::Factor> make_iterative(const FlexiblePart& part,
+                                                     const linalg::SparseMatrix& A);
 
 /// Makes factors, or what takes their place, as chosen for the body, which must outlive it.
 linalg::MakeFactor solver_of(const FlexiblePart& part);

@@ -7,14 +7,25 @@
 extern "C" {
 
 /// Rises with every change of what stands here.
-enum { kBuckensGridVersion = 2 };
+enum { kBuckensGridVersion = 3 };
 
-/// A symmetric positive definite matrix by columns. The arrays must live as long as its solver.
-struct BuckensGridMatrix {
-  int size;
-  const int* starts;  ///< size + 1
+/// Some columns of a matrix.
+struct BuckensGridColumns {
+  const int* starts;  ///< one more than columns, from 0
   const int* rows;    ///< ascending within a column
   const double* values;
+};
+
+/// A symmetric positive definite matrix by columns: whole, or some columns at a time.
+struct BuckensGridMatrix {
+  int size;
+  /// All columns. They must live as long as the solver if one process has it. Not read if `give`
+  /// is set.
+  BuckensGridColumns all;
+  /// Null, or gives columns `first` to `end` − 1, which live until the next call; null for them
+  /// gives the memory back. Only for solvers that several processes share.
+  void (*give)(void* source, int first, int end, BuckensGridColumns* columns);
+  void* source;
   int block;              ///< variables per node, 1 where it varies
   int num_motions;        ///< rigid motions
   const double* motions;  ///< size × num_motions, by columns
@@ -32,6 +43,13 @@ struct BuckensGridOutcome {
   int iterations;
   double first, last;  ///< ‖r₀‖, ‖r‖
   int has_converged;
+};
+
+/// What the first process has sent to the others and received from them, without what the library
+/// exchanges while it makes a solver or solves.
+struct BuckensGridTraffic {
+  long messages;
+  double bytes;
 };
 
 /// Functions that fail return null or not zero and write why into `error`.
@@ -52,6 +70,8 @@ struct BuckensGridPlugin {
   void (*serve)();
   /// Of the first: ends the others and MPI, when no solver is left.
   void (*leave)();
+  /// Of the first: zeros where nothing is shared.
+  void (*traffic)(BuckensGridTraffic* traffic);
 };
 
 /// The one function that a plug-in exports.

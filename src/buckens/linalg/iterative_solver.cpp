@@ -14,6 +14,7 @@
 #include "buckens/base/work.h"
 #include "buckens/linalg/finite_matrix.h"
 #include "buckens/linalg/grid_library.h"
+#include "buckens/linalg/ranks.h"
 #include "buckens/linalg/single_thread.h"
 
 namespace buckens::linalg {
@@ -41,23 +42,59 @@ struct IterativeSolver::Solver {
 
 IterativeSolver::IterativeSolver(SparseMatrix A, const Matrix& motions,
                                  const IterationSettings& settings)
-    : A_(std::move(A)), settings_(settings), solver_(std::make_unique<Solver>()) {
-  A_.makeCompressed();
-  require_finite(A_);
+    : size_(A.rows()), settings_(settings), solver_(std::make_unique<Solver>()) {
+  A.makeCompressed();
+  if (Ranks::count() > 1) {
+    MatrixSum alone;
+    alone.add(1.0, A);
+    share(alone, motions);
+    return;
+  }
+  keep(std::move(A), motions);
+}
+
+IterativeSolver::IterativeSolver(const MatrixSum& A, const Matrix& motions,
+                                 const IterationSettings& settings)
+    : size_(A.size()), settings_(settings), solver_(std::make_unique<Solver>()) {
+  if (Ranks::count() > 1) {
+    share(A, motions);
+  } else {
+    keep(A.whole(), motions);
+  }
+}
+
+void IterativeSolver::keep(SparseMatrix A, const Matrix& motions) {
+  require_finite(A);
+  A_ = std::move(A);
+  entries_ = static_cast<double>(A_.nonZeros());
+  BuckensGridMatrix matrix{};
+  matrix.all = {A_.outerIndexPtr(), A_.innerIndexPtr(), A_.valuePtr()};
+  make(matrix, motions);
+}
+
+void IterativeSolver::share(const MatrixSum& A, const Matrix& motions) {
+  A.require_finite();
+  ColumnSource columns(A);
+  BuckensGridMatrix matrix{};
+  matrix.give = ColumnSource::give;
+  matrix.source = &columns;
+  make(matrix, motions);
+  entries_ = columns.entries();
+}
+
+/// @param matrix its entries; the rest is found here
+void IterativeSolver::make(BuckensGridMatrix matrix, const Matrix& motions) {
   solver_->plugin = &grid_solver();
   const base::Stopwatch watch;
   base::Work work;
-  work.name = fmt::format("coarsening {} equations", A_.rows());
+  work.name = fmt::format("coarsening {} equations", size_);
   work.stage = "multigrid";
-  if (A_.rows() >= kToldSize) base::report_work(work);
-  const BuckensGridMatrix matrix{static_cast<int>(A_.rows()),
-                                 A_.outerIndexPtr(),
-                                 A_.innerIndexPtr(),
-                                 A_.valuePtr(),
-                                 settings.block,
-                                 static_cast<int>(motions.cols()),
-                                 motions.data(),
-                                 settings_.options.c_str()};
+  if (size_ >= kToldSize) base::report_work(work);
+  matrix.size = static_cast<int>(size_);
+  matrix.block = settings_.block;
+  matrix.num_motions = static_cast<int>(motions.cols());
+  matrix.motions = motions.data();
+  matrix.options = settings_.options.c_str();
   std::array<char, 400> error{};
   {
     const std::scoped_lock lock(turn_of_grid_solver());
@@ -66,10 +103,10 @@ IterativeSolver::IterativeSolver(SparseMatrix A, const Matrix& motions,
     if (solver_->handle != nullptr) solver_->bytes = solver_->plugin->bytes(solver_->handle);
   }
   work.stage.clear();
-  if (A_.rows() >= kToldSize) base::report_work(work);
+  if (size_ >= kToldSize) base::report_work(work);
   if (solver_->handle == nullptr) {
     throw NumericalError(
-        fmt::format("multigrid for a matrix of size {} failed: {}; {}", A_.rows(), error.data(),
+        fmt::format("multigrid for a matrix of size {} failed: {}; {}", size_, error.data(),
                     settings_.options.empty() ? "factorise it, or use a coarser mesh"
                                               : "correct the options of PETSc, or leave them out"));
   }
@@ -80,9 +117,7 @@ IterativeSolver::~IterativeSolver() = default;
 
 double IterativeSolver::num_factor_entries() const { return bytes() / 12.0; }
 
-double IterativeSolver::bytes() const {
-  return 12.0 * static_cast<double>(A_.nonZeros()) + solver_->bytes;
-}
+double IterativeSolver::bytes() const { return 12.0 * entries_ + solver_->bytes; }
 
 IterationCounts IterativeSolver::iteration_counts() const {
   const std::scoped_lock lock(turn_of_grid_solver());
@@ -108,11 +143,11 @@ void IterativeSolver::iterate(const double* b, double* x, double energy) const {
       failure != 0
           ? fmt::format("conjugate gradients on a matrix of size {} failed: {}; factorise "
                         "it",
-                        A_.rows(), error.data())
+                        size_, error.data())
           : fmt::format("conjugate gradients on a matrix of size {} have not converged in {} "
                         "iterations (the error fell from {:.3g} to {:.3g}); factorise it, use a "
                         "shorter step, or a mesh without very flat elements",
-                        A_.rows(), outcome.iterations, outcome.first, outcome.last));
+                        size_, outcome.iterations, outcome.first, outcome.last));
 }
 
 void IterativeSolver::improve(const Vector& b, Vector& x, double energy) const {

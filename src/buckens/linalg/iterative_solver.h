@@ -5,6 +5,8 @@
 #include <string>
 
 #include "buckens/linalg/factor.h"
+#include "buckens/linalg/grid_plugin.h"
+#include "buckens/linalg/matrix_sum.h"
 
 namespace buckens::linalg {
 
@@ -23,16 +25,18 @@ struct IterationSettings {
 /// is about its local error. Always the same bits, whatever the number of threads.
 class IterativeSolver final : public Factor {
  public:
-  /// @param A symmetric positive definite, both triangles stored; kept
+  /// @param A symmetric positive definite, both triangles stored; kept if this process works alone
   /// @param motions n×(0…6), motions with little energy: those of a rigid body
   /// @throws IoError if there is no multigrid solver
   /// @throws NumericalError if A is not finite, or it cannot be made, as with unknown options
   IterativeSolver(SparseMatrix A, const Matrix& motions, const IterationSettings& settings);
+  /// The same of a sum, which is formed whole only if this process works alone.
+  IterativeSolver(const MatrixSum& A, const Matrix& motions, const IterationSettings& settings);
   ~IterativeSolver() override;
   IterativeSolver(const IterativeSolver&) = delete;
   IterativeSolver& operator=(const IterativeSolver&) = delete;
 
-  Eigen::Index size() const override { return A_.rows(); }
+  Eigen::Index size() const override { return size_; }
   /// Entries of A and of the coarser matrices, about.
   double num_factor_entries() const override;
   double bytes() const override;
@@ -48,9 +52,14 @@ class IterativeSolver final : public Factor {
   IterationCounts iteration_counts() const override;
 
  private:
+  void make(BuckensGridMatrix matrix, const Matrix& motions);
+  void keep(SparseMatrix A, const Matrix& motions);
+  void share(const MatrixSum& A, const Matrix& motions);
   void iterate(const double* b, double* x, double energy) const;
 
-  SparseMatrix A_;
+  Eigen::Index size_;
+  SparseMatrix A_;      // empty where several processes hold its rows
+  double entries_ = 0;  // of A
   IterationSettings settings_;
   struct Solver;
   std::unique_ptr<Solver> solver_;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdlib>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <string>
 
@@ -12,7 +13,6 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/linalg/factor_work.h"
-#include "buckens/linalg/finite_matrix.h"
 #include "buckens/linalg/grid_library.h"
 #include "buckens/linalg/single_thread.h"
 #include "buckens/linalg/sparse_cholesky.h"
@@ -28,6 +28,8 @@ constexpr const char* kMumps =
 
 int count_of_ranks = 1;
 
+bool is_shared(Eigen::Index size) { return count_of_ranks > 1 && size >= kWorthSharing; }
+
 std::optional<int> number_in_environment(const char* name) {
   const char* text = std::getenv(name);
   if (text == nullptr || *text == '\0') return std::nullopt;
@@ -36,17 +38,12 @@ std::optional<int> number_in_environment(const char* name) {
 
 class SharedFactor final : public Factor {
  public:
-  explicit SharedFactor(const SparseMatrix& A) : size_(A.rows()), plugin_(grid_solver()) {
-    require_finite(A);
+  explicit SharedFactor(const MatrixSum& A) : size_(A.size()), plugin_(grid_solver()) {
+    A.require_finite();
     FactorWork work(size_);
-    const BuckensGridMatrix matrix{static_cast<int>(size_),
-                                   A.outerIndexPtr(),
-                                   A.innerIndexPtr(),
-                                   A.valuePtr(),
-                                   1,
-                                   0,
-                                   nullptr,
-                                   kMumps};
+    ColumnSource columns(A);
+    const BuckensGridMatrix matrix{
+        static_cast<int>(size_), {}, ColumnSource::give, &columns, 1, 0, nullptr, kMumps};
     std::array<char, 400> error{};
     {
       const std::scoped_lock lock(turn_of_grid_solver());
@@ -140,13 +137,37 @@ void Ranks::serve() {
 
 int Ranks::count() { return count_of_ranks; }
 
-std::shared_ptr<const Factor> make_shared_factor(const SparseMatrix& A) {
-  return std::make_shared<const SharedFactor>(A);
+Traffic Ranks::traffic() {
+  if (count_of_ranks == 1) return {};
+  BuckensGridTraffic out{};
+  grid_solver().traffic(&out);
+  return {out.messages, out.bytes};
 }
 
 std::shared_ptr<const Factor> make_large_factor(const SparseMatrix& A) {
-  if (Ranks::count() > 1 && A.rows() >= kWorthSharing) return make_shared_factor(A);
-  return make_cholesky(A);
+  if (!is_shared(A.rows())) return make_cholesky(A);
+  MatrixSum alone;
+  alone.add(1.0, A);
+  return std::make_shared<const SharedFactor>(alone);
+}
+
+std::shared_ptr<const Factor> make_large_factor_of(const MatrixSum& A) {
+  if (is_shared(A.size())) return std::make_shared<const SharedFactor>(A);
+  return make_cholesky(A.whole());
+}
+
+void ColumnSource::give(void* source, int first, int end, BuckensGridColumns* columns) {
+  auto& own = *static_cast<ColumnSource*>(source);
+  own.piece_ = SparseMatrix();
+  if (columns == nullptr) return;
+  *columns = {};
+  try {
+    own.piece_ = own.A_->columns(first, end - first);
+  } catch (const std::bad_alloc&) {
+    return;  // the plug-in says so to all processes
+  }
+  own.entries_ += static_cast<double>(own.piece_.nonZeros());
+  *columns = {own.piece_.outerIndexPtr(), own.piece_.innerIndexPtr(), own.piece_.valuePtr()};
 }
 
 }  // namespace buckens::linalg

@@ -4,6 +4,8 @@
 #include <memory>
 
 #include "buckens/linalg/factor.h"
+#include "buckens/linalg/grid_plugin.h"
+#include "buckens/linalg/matrix_sum.h"
 
 namespace buckens::linalg {
 
@@ -13,6 +15,13 @@ struct StartedProcesses {
   int rank_on_machine = 0;  ///< among those on the same machine
 };
 StartedProcesses started_processes();
+
+/// What the first process has sent to the others and received from them: rows of matrices, orders,
+/// right-hand sides and answers. What MUMPS and PETSc exchange among all is not counted.
+struct Traffic {
+  long messages = 0;
+  double bytes = 0;
+};
 
 /// Processes that mpirun started, among which large factors and iterative solvers are distributed.
 ///
@@ -32,17 +41,34 @@ class Ranks {
   void serve();
   /// Processes that share the work now; 1 without an object.
   static int count();
+  /// Zeros without an object.
+  static Traffic traffic();
 
  private:
   int rank_ = 0;
 };
 
-/// Factor of a matrix by MUMPS, distributed over all processes.
-/// @throws NumericalError if A is not finite or not positive definite, or memory is too small
-std::shared_ptr<const Factor> make_shared_factor(const SparseMatrix& A);
-
 /// What makes the factors of bodies unless they iterate: SparseCholesky in this process, or, where
-/// several share the work and A is large, make_shared_factor().
+/// several share the work and A is large, MUMPS, with the factor distributed over all. No process
+/// then holds more of A than the rows of one of them, beside the terms of a sum.
+/// @throws NumericalError if A is not finite or not positive definite, or memory is too small
 std::shared_ptr<const Factor> make_large_factor(const SparseMatrix& A);
+/// The same of a sum, which is formed whole only if this process factorises it.
+std::shared_ptr<const Factor> make_large_factor_of(const MatrixSum& A);
+
+/// Gives columns of a sum to the plug-in (BuckensGridMatrix::give), one run of them at a time.
+class ColumnSource {
+ public:
+  explicit ColumnSource(const MatrixSum& A) : A_(&A) {}
+  /// With this object as `source`.
+  static void give(void* source, int first, int end, BuckensGridColumns* columns);
+  /// Of all columns that were given.
+  double entries() const { return entries_; }
+
+ private:
+  const MatrixSum* A_;
+  SparseMatrix piece_;
+  double entries_ = 0;
+};
 
 }  // namespace buckens::linalg

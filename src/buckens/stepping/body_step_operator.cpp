@@ -18,10 +18,11 @@ namespace {
 // Up to this size the dense inverse is quicker than a sparse solve and as accurate.
 constexpr Eigen::Index kSmall = SmallBodyAnswers::kMostVariables;
 
-SparseMatrix step_matrix(const body::FlexiblePart& part, const Scheme& scheme) {
-  SparseMatrix K_hat = scheme.mass * part.fe.M + scheme.stiffness * part.fe.K;
-  if (part.is_damped()) K_hat += scheme.damping * part.C;
-  K_hat.makeCompressed();
+linalg::MatrixSum step_matrix(const body::FlexiblePart& part, const Scheme& scheme) {
+  linalg::MatrixSum K_hat;
+  K_hat.add(scheme.mass, part.fe.M);
+  K_hat.add(scheme.stiffness, part.fe.K);
+  if (part.is_damped()) K_hat.add(scheme.damping, part.C);
   return K_hat;
 }
 
@@ -47,8 +48,10 @@ InterfaceRows rows_of(const body::FlexiblePart& part) {
 }
 
 /// Whether K̂ is diagonal and nothing has to be sieved, as for reduced bodies.
-bool is_division_enough(const body::FlexiblePart& part, const SparseMatrix& K_hat) {
-  if (part.sieve.rank() > 0 || K_hat.nonZeros() != K_hat.rows()) return false;
+bool is_division_enough(const body::FlexiblePart& part, const linalg::MatrixSum& sum) {
+  if (part.sieve.rank() > 0) return false;
+  const SparseMatrix K_hat = sum.whole();
+  if (K_hat.nonZeros() != K_hat.rows()) return false;
   for (int j = 0; j < K_hat.outerSize(); ++j) {
     const SparseMatrix::InnerIterator entry(K_hat, j);
     if (!entry || entry.row() != j) return false;
@@ -102,12 +105,12 @@ BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme&
       N_(rows_of(part)),
       inertial_(part, scheme) {
   {
-    SparseMatrix K_hat = step_matrix(part, scheme);
+    const linalg::MatrixSum K_hat = step_matrix(part, scheme);
     diagonal_ = K_hat.diagonal();
     if (is_division_enough(part, K_hat)) {
       diagonal_inverse_ = diagonal_.cwiseInverse();
     } else {
-      find_factor(std::move(K_hat), source);
+      find_factor(K_hat, source);
     }
   }
   if (!is_diagonal() && part.num_dofs() <= kSmall) {
@@ -184,9 +187,9 @@ SmallBodyAnswers BodyStepOperator::answers_by_variables() const {
   return {N_, inverse_, std::move(B)};
 }
 
-SparseMatrix BodyStepOperator::K_hat() const { return step_matrix(*part_, scheme_); }
+SparseMatrix BodyStepOperator::K_hat() const { return step_matrix(*part_, scheme_).whole(); }
 
-void BodyStepOperator::find_factor(SparseMatrix K_hat, const FactorSource& source) {
+void BodyStepOperator::find_factor(const linalg::MatrixSum& K_hat, const FactorSource& source) {
   const BodyStepOperator* twin = source.twin;
   if (twin != nullptr && twin->factor_ && have_one_matrix(scheme_, twin->scheme_) &&
       twin->fits(*part_)) {
@@ -198,13 +201,13 @@ void BodyStepOperator::find_factor(SparseMatrix K_hat, const FactorSource& sourc
   const body::SolverDecision decision = body::decide_solver(part_->solver, K_hat);
   why_solver_ = decision.why;
   if (decision.iterates) {
-    factor_ = body::make_iterative(*part_, std::move(K_hat));
+    factor_ = body::make_iterative(*part_, K_hat);
   } else if (source.exchange != nullptr) {
     const long factorisations = source.exchange->num_factorisations();
-    factor_ = source.exchange->factor(K_hat);
+    factor_ = source.exchange->factor(K_hat.whole());
     is_shared_ = source.exchange->num_factorisations() == factorisations;
   } else {
-    factor_ = source.make(K_hat);
+    factor_ = source.make ? source.make(K_hat.whole()) : linalg::make_large_factor_of(K_hat);
   }
 }
 

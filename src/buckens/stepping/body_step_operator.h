@@ -22,8 +22,8 @@ struct FactorSource {
   const BodyStepOperator* twin = nullptr;
   /// Exchange through which other simulations may have the factor; null: none.
   linalg::SolveExchange* exchange = nullptr;
-  /// Makes the factor if nobody has it.
-  linalg::MakeFactor make = linalg::make_large_factor;
+  /// Makes the factor if nobody has it; empty: linalg::make_large_factor_of().
+  linalg::MakeFactor make;
 };
 
 /// Everything a step of fixed length needs of one flexible body: one factorisation of K̂ = m M + c
@@ -111,7 +111,7 @@ class BodyStepOperator final : public BodyAnswer {
   long setup_solves() const { return setup_solves_; }
 
  private:
-  void find_factor(linalg::SparseMatrix K_hat, const FactorSource& source);
+  void find_factor(const linalg::MatrixSum& K_hat, const FactorSource& source);
   void find_nodal(const FactorSource& source);
   void find_responses(const FactorSource& source);
   std::shared_ptr<const BodyResponses> make_responses(const BodyResponses::Source& source);

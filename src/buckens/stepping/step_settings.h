@@ -36,8 +36,9 @@ struct StepSettings {
   std::vector<char> released;
   /// Shares factors and solves with steppers that run side by side; null: alone.
   linalg::SolveExchange* exchange = nullptr;
-  /// Factorises the step matrices of bodies; an exchange has its own.
-  linalg::MakeFactor make_factor = linalg::make_large_factor;
+  /// Factorises the step matrices of bodies in place of linalg::make_large_factor_of(); an exchange
+  /// has its own.
+  linalg::MakeFactor make_factor;
 
   /// The parameter of the method, for Scheme.
   double method_parameter() const {

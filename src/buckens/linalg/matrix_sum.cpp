@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/linalg/matrix_sum.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "buckens/linalg/finite_matrix.h"
+
+namespace buckens::linalg {
+
+using Eigen::Index;
+
+template <class Visitor>
+void MatrixSum::visit_column(Index column, Visitor&& visit) const {
+  std::vector<SparseMatrix::InnerIterator> at;
+  at.reserve(terms_.size());
+  for (const Term& term : terms_) at.emplace_back(*term.A, column);
+  for (;;) {
+    constexpr Index kEnd = std::numeric_limits<Index>::max();
+    Index row = kEnd;
+    for (const auto& it : at) row = it ? std::min(row, Index{it.row()}) : row;
+    if (row == kEnd) return;
+    double value = 0;
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      if (!at[k] || at[k].row() != row) continue;
+      value += terms_[k].weight * at[k].value();
+      ++at[k];
+    }
+    visit(row, value);
+  }
+}
+
+SparseMatrix MatrixSum::columns(Index first, Index count) const {
+  SparseMatrix out(size(), count);
+  int* starts = out.outerIndexPtr();
+  starts[0] = 0;
+  for (Index k = 0; k < count; ++k) {
+    int entries = 0;
+    visit_column(first + k, [&entries](Index, double) { ++entries; });
+    starts[k + 1] = starts[k] + entries;
+  }
+  out.resizeNonZeros(starts[count]);
+  Index place = 0;
+  for (Index k = 0; k < count; ++k) {
+    visit_column(first + k, [&](Index row, double value) {
+      out.innerIndexPtr()[place] = static_cast<int>(row);
+      out.valuePtr()[place++] = value;
+    });
+  }
+  return out;
+}
+
+Vector MatrixSum::diagonal() const {
+  Vector out = Vector::Zero(size());
+  for (const Term& term : terms_) out += term.weight * term.A->diagonal();
+  return out;
+}
+
+void MatrixSum::require_finite() const {
+  for (const Term& term : terms_) linalg::require_finite(*term.A);
+}
+
+}  // namespace buckens::linalg

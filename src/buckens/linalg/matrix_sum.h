@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "buckens/linalg/matrix_types.h"
+
+namespace buckens::linalg {
+
+/// A = Σ w_k A_k of symmetric matrices, both triangles stored, which is formed whole or some
+/// columns at a time: what solves with A may need only a share of it at once.
+class MatrixSum {
+ public:
+  /// Adds w A. @param A of the size of the others, must outlive this object
+  void add(double weight, const SparseMatrix& A) { terms_.push_back({weight, &A}); }
+
+  /// 0 without terms.
+  Eigen::Index size() const { return terms_.empty() ? 0 : terms_.front().A->cols(); }
+  /// Some columns, n×count, their rows ascending; takes no more memory than they do. Entries are
+  /// summed in the order of the terms, so they have the bits of `w_1 * A_1 + w_2 * A_2 + …`.
+  SparseMatrix columns(Eigen::Index first, Eigen::Index count) const;
+  SparseMatrix whole() const { return columns(0, size()); }
+  Vector diagonal() const;
+  /// @throws NumericalError if an entry of a term is not finite
+  void require_finite() const;
+
+ private:
+  struct Term {
+    double weight;
+    const SparseMatrix* A;
+  };
+
+  /// Calls visit(row, value) for the entries of a column, rows ascending.
+  template <class Visitor>
+  void visit_column(Eigen::Index column, Visitor&& visit) const;
+
+  std::vector<Term> terms_;
+};
+
+}  // namespace buckens::linalg
