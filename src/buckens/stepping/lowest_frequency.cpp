@@ -110,6 +110,17 @@ Vector least_combination(const Matrix& M, const Matrix& K) {
   return T * stiffness.eigenvectors().col(0);
 }
 
+/// XᵀA X, column by column: A X would take as much memory as X.
+Matrix projected(const linalg::SparseMatrix& A, const Eigen::Ref<const Matrix>& X) {
+  Matrix out(X.cols(), X.cols());
+  Vector image(X.rows());
+  for (Eigen::Index k = 0; k < X.cols(); ++k) {
+    image.noalias() = A * X.col(k);
+    out.col(k).noalias() = X.transpose() * image;
+  }
+  return out;
+}
+
 /// The best shape among polynomials of the place.
 Vector smooth_shape(const body::FlexiblePart& part) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(part.fe.shape.J0);
@@ -126,8 +137,8 @@ Vector smooth_shape(const body::FlexiblePart& part) {
     if (x.norm() > kDependentVector * before) basis.col(count++) = x;
   }
   const auto kept = basis.leftCols(count);
-  const Matrix M = kept.transpose() * (part.fe.M * kept);
-  const Matrix K = kept.transpose() * (part.fe.K * kept);
+  const Matrix M = projected(part.fe.M, kept);
+  const Matrix K = projected(part.fe.K, kept);
   Vector out = kept * least_combination(M, K);
   part.sieve.apply(out);
   return out;
