@@ -4,7 +4,8 @@
     bench/several_processes.py PROGRAM --side 31 --processes 1 2 4 --into docs/developers/several_processes.json
 
 Prints a table and adds the runs to the file. One process has the factor of the program itself; `--mumps` lets it use MUMPS, too. Times are wall
-times: several processes on fewer processors share them.
+times: several processes on fewer processors share them. Messages and bytes are those of all processes, MUMPS included, as Open MPI counts them
+(its component `monitoring`); those of a step are the difference of a long and a short run.
 """
 
 import argparse
@@ -43,6 +44,18 @@ def peaks(started, known):
         known[rank] = max(known.get(rank, 0), 1024 * int(lines[0].split()[1]))
 
 
+def traffic(folder):
+    """Messages and bytes that all processes have sent, those within collective calls included."""
+    messages, size = 0, 0
+    for profile in pathlib.Path(folder).glob("sent.*.prof"):
+        for line in profile.read_text().splitlines():
+            words = line.split()
+            if words[0] in ("E", "I"):
+                size += int(words[3])
+                messages += int(words[5])
+    return messages, size
+
+
 def run(program, side, processes, steps, solver):
     with tempfile.TemporaryDirectory() as folder:
         model = pathlib.Path(folder) / "cube.yaml"
@@ -50,7 +63,8 @@ def run(program, side, processes, steps, solver):
         out = pathlib.Path(folder) / "out"
         command = [program, "run", str(model), "-o", str(out), "--quiet"]
         if processes > 1:
-            command = ["mpirun", "-n", str(processes), *command]
+            command = ["mpirun", "-n", str(processes), "--bind-to", "none", "--mca", "pml_monitoring_enable", "2",
+                       "--mca", "pml_monitoring_enable_output", "3", "--mca", "pml_monitoring_filename", folder + "/sent", *command]
         process = subprocess.Popen(command, env={**ENVIRONMENT, "BUCKENS_BENCH_RUN": folder})
         memory = {}
         while process.poll() is None:
@@ -59,11 +73,14 @@ def run(program, side, processes, steps, solver):
         if process.returncode != 0:
             raise SystemExit(f"{processes} processes: the program ended with {process.returncode}")
         summary = json.loads((out / "summary.json").read_text())
-        return summary, [memory[rank] for rank in sorted(memory)]
+        return summary, [memory[rank] for rank in sorted(memory)], traffic(folder)
 
 
 def measure(program, side, processes, steps, solver):
-    summary, memory = run(program, side, processes, steps, solver)
+    few = max(2, steps // 4)
+    short, _, sent_before = run(program, side, processes, few, solver) if processes > 1 else ({}, [], (0, 0))
+    summary, memory, sent = run(program, side, processes, few + steps, solver)
+    per_step = [(a - b) / steps for a, b in zip(sent, sent_before)]
     body = summary["bodies"]["cube"]
     return {"side": side, "variables": body["dof"], "processes": processes,
             "solver": "MUMPS" if solver == MUMPS or processes > 1 else "own",
@@ -71,6 +88,12 @@ def measure(program, side, processes, steps, solver):
             "solve_seconds": summary["wall_seconds"]["phases"]["large_solves"] / body["solves"],
             "step_seconds": summary["wall_seconds"]["stepping"] / summary["steps"],
             "solves": body["solves"], "steps": summary["steps"], "peak_bytes": memory,
+            "messages_per_step": per_step[0], "bytes_per_step": per_step[1],
+            "solves_per_step": (body["solves"] - (short["bodies"]["cube"]["solves"] if short else 0)) / steps if short else
+            body["solves"] / summary["steps"],
+            "own_messages_per_step": summary.get("measures", {}).get("messages_per_step", 0),
+            "own_bytes_per_step": summary.get("measures", {}).get("bytes_per_step", 0),
+            "all_messages": sent[0], "all_bytes": sent[1],
             "processors": os.cpu_count(), "load": os.getloadavg()[0],
             "date": datetime.datetime.now().strftime("%Y-%m-%d")}
 
@@ -93,7 +116,8 @@ def main():
         rows.sort(key=lambda r: (r["side"], r["processes"], r["solver"]))
         arguments.into.write_text(json.dumps(rows, indent=1) + "\n")
         print("| {variables} | {processes} | {solver} | {setup_seconds:.1f} | {solve_seconds:.3f} | {step_seconds:.3f} | ".format(**row)
-              + ", ".join(f"{m / 1e9:.2f}" for m in row["peak_bytes"]) + " |")
+              + ", ".join(f"{m / 1e9:.2f}" for m in row["peak_bytes"])
+              + " | {messages_per_step:.0f} | {0:.2f} |".format(row["bytes_per_step"] / 1e6, **row), flush=True)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 Without the plug-in (build option BUCKENS_MPI) or without mpirun only the message of that is tested.
 """
 
+import json
 import os
 import pathlib
 import shutil
@@ -41,6 +42,21 @@ bodies:
 joints: {ball: {spherical: {between: [ground, cube/bearing]}}}
 simulation: {duration: 0.5 ms, step: 0.1 ms}
 output: {every: 0.1 ms, sensors: {force: {joint-force: ball}, corner: {position: cube/corner_111}}}
+"""
+
+SHELLS = """\
+buckens: 1
+title: A plate large enough to be distributed
+gravity: [0, 0, -9.81]
+materials: {steel: {E: 210 GPa, nu: 0.3, rho: 7850}}
+bodies:
+  plate:
+    at: {position: [0, -0.1, 0]}
+    mesh: {plate: {size: [0.2, 0.2], divisions: [58, 58], thickness: 2 mm}, material: steel}
+    interfaces: {edge: {set: [x0]}}
+joints: {hinge: {revolute: {between: [ground, plate/edge], axis: [0, 1, 0]}}}
+simulation: {duration: 0.5 ms, step: 0.1 ms}
+output: {every: 0.1 ms, sensors: {force: {joint-force: hinge}, corner: {position: plate/corner_11}}}
 """
 
 several = pytest.mark.skipif(missing() or MPIRUN is None, reason="built without BUCKENS_MPI, or no mpirun")
@@ -103,6 +119,69 @@ def test_other_kinds_of_bodies(buckens, mpirun, tmp_path, name):
     buckens("run", BLOCKS, "-o", "one", *change).must(0)
     must(mpirun(2, "run", BLOCKS, "-o", "two", *change, *DISTRIBUTED[:2]))
     assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < 1e-9
+
+
+LARGE = {
+    "tet10": ("bodies.cube.mesh.box={size: [0.1, 0.1, 0.1], divisions: [9, 9, 9], element: tet10}",),
+    "damped": ("materials.steel.damping={mass: 20, stiffness: 0.01 ms}", "bodies.cube.coupling=first-order"),
+    "iterative": ("bodies.cube.solver=iterative",),
+    "rigid interface": ("bodies.cube.interfaces.bearing.kind=rigid",),
+}
+
+
+@several
+@pytest.mark.parametrize("name", LARGE)
+def test_a_large_body_of_another_kind(buckens, mpirun, tmp_path, name):
+    (tmp_path / "cube.yaml").write_text(CUBE)
+    change = [word for key in LARGE[name] for word in ("--set", key)]
+    buckens("run", "cube.yaml", "-o", "one", *change).must(0)
+    must(mpirun(2, "run", "cube.yaml", "-o", "two", *change))
+    # Iterations on several processes are others than those on one.
+    limit = 1e-8 if name == "iterative" else 1e-9
+    assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < limit
+
+
+@several
+def test_shells(buckens, mpirun, tmp_path):
+    (tmp_path / "plate.yaml").write_text(SHELLS)
+    buckens("run", "plate.yaml", "-o", "one").must(0)
+    must(mpirun(2, "run", "plate.yaml", "-o", "two"))
+    summary = json.loads((tmp_path / "two" / "summary.json").read_text())
+    assert summary["bodies"]["plate"]["dof"] >= 20000, "large enough to be distributed"
+    assert summary["measures"]["messages_per_step"] > 0
+    assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < 1e-9
+
+
+@several
+def test_static_equilibrium_of_a_large_body(buckens, mpirun, tmp_path):
+    (tmp_path / "cube.yaml").write_text(CUBE.replace("{spherical:", "{fixed:"))
+    buckens("static", "cube.yaml", "-o", "one").must(0)
+    must(mpirun(2, "static", "cube.yaml", "-o", "two"))
+    assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < 1e-9
+
+
+@several
+@pytest.mark.parametrize("count", [2, 3])
+def test_messages_and_bytes_of_a_step_are_counted(mpirun, tmp_path, count):
+    """A solve: an order to each process, its right-hand side and its answer, whether it failed, and what all say to that."""
+    must(mpirun(count, "run", BLOCKS, "-o", "out", *DISTRIBUTED))
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert summary["measures"]["processes"] == count
+    solves = sum(body["solves"] for body in summary["bodies"].values()) / summary["steps"]
+    others = count - 1
+    messages = summary["measures"]["messages_per_step"]
+    assert messages == pytest.approx(5 * others * solves, rel=1e-12)
+    # 160 nodes of three variables, of which the first process has every second or third.
+    sent = 3 * (160 - 160 // count)
+    order = 56
+    expected = solves * (others * (order + 2 * 4) + 2 * 8 * sent)
+    assert summary["measures"]["bytes_per_step"] == pytest.approx(expected, rel=1e-12)
+
+
+def test_one_process_counts_nothing(buckens, tmp_path):
+    buckens("run", BLOCKS, "-o", "out", "--set", "simulation.duration=2 ms").must(0)
+    measures = json.loads((tmp_path / "out" / "summary.json").read_text()).get("measures", {})
+    assert not {"processes", "messages_per_step", "bytes_per_step"} & measures.keys()
 
 
 @several

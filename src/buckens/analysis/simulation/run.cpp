@@ -228,6 +228,7 @@ void SimulationRun::step() {
   model::State& state = prepared_->state;
   if (std::exchange(has_new_inputs_, false)) work_->take_inputs(state);
   std::swap(before_, state);
+  traffic_.begin_step();
   const stepping::StepReport report = take_step(before_, state);
   ++steps_taken_;
   statistics_->add_step(report, state);
@@ -380,6 +381,7 @@ results::RunSummary SimulationRun::finish() {
   split_wall_time();
   summary_.end_time = state().t;
   statistics_->fill(*march_, summary_);
+  traffic_.fill(summary_);
   summary_.energy_account = work_->account(state());
   watch_->fill(state(), summary_);
   if (recording_) recording_->finish(summary_);

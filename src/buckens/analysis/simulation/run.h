@@ -20,6 +20,7 @@
 #include "buckens/analysis/simulation/shaft_watch.h"
 #include "buckens/analysis/simulation/simulation.h"
 #include "buckens/analysis/simulation/step_advice.h"
+#include "buckens/analysis/simulation/step_traffic.h"
 #include "buckens/analysis/simulation/work_account.h"
 #include "buckens/results/recorder.h"
 #include "buckens/stepping/time_march.h"
@@ -95,6 +96,7 @@ class SimulationRun {
   const model::SimulationSpec& spec_;
   Clock::time_point created_ = Clock::now();
   double setup_seconds_ = 0, stepping_seconds_ = 0;
+  StepTraffic traffic_;
   OutputPlan plan_;
   std::optional<dynamics::MassMetric> metric_;
   std::optional<Prepared> prepared_;
