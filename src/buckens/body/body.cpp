@@ -31,7 +31,7 @@ Sieve make_sieve(const std::string& body, const fem::FeModel& fe) {
 }
 
 /// The model, without copies of its large matrices, which Eigen's moves make.
-fem::FeModel taken(fem::FeModel& from) {
+fem::FeModel taken_over(fem::FeModel& from) {
   linalg::SparseMatrix M, K, K_damping;
   M.swap(from.M);
   K.swap(from.K);
@@ -53,7 +53,7 @@ linalg::SparseMatrix damping_matrix(const fem::FeModel& fe) {
 }  // namespace
 
 FlexiblePart::FlexiblePart(const std::string& body, fem::FeModel model, CouplingChoice choice)
-    : fe(taken(model)),
+    : fe(taken_over(model)),
       sieve(make_sieve(body, fe)),
       invariants(fe.shape),
       C(damping_matrix(fe)),

@@ -28,7 +28,7 @@ constexpr const char* kMumps =
 
 int count_of_ranks = 1;
 
-bool is_shared(Eigen::Index size) { return count_of_ranks > 1 && size >= kWorthSharing; }
+bool is_distributed(Eigen::Index size) { return count_of_ranks > 1 && size >= kWorthSharing; }
 
 std::optional<int> number_in_environment(const char* name) {
   const char* text = std::getenv(name);
@@ -145,14 +145,14 @@ Traffic Ranks::traffic() {
 }
 
 std::shared_ptr<const Factor> make_large_factor(const SparseMatrix& A) {
-  if (!is_shared(A.rows())) return make_cholesky(A);
+  if (!is_distributed(A.rows())) return make_cholesky(A);
   MatrixSum alone;
   alone.add(1.0, A);
   return std::make_shared<const SharedFactor>(alone);
 }
 
 std::shared_ptr<const Factor> make_large_factor_of(const MatrixSum& A) {
-  if (is_shared(A.size())) return std::make_shared<const SharedFactor>(A);
+  if (is_distributed(A.size())) return std::make_shared<const SharedFactor>(A);
   return make_cholesky(A.whole());
 }
 
