@@ -154,7 +154,8 @@ def test_shells(buckens, mpirun, tmp_path):
 
 @several
 def test_static_equilibrium_of_a_large_body(buckens, mpirun, tmp_path):
-    (tmp_path / "cube.yaml").write_text(CUBE.replace("{spherical:", "{fixed:"))
+    pull = "loads: {pull: {force: {on: cube/corner_111, value: [0, 0, 1 kN]}}}\n"
+    (tmp_path / "cube.yaml").write_text(CUBE.replace("{spherical:", "{fixed:") + pull)
     buckens("static", "cube.yaml", "-o", "one").must(0)
     must(mpirun(2, "static", "cube.yaml", "-o", "two"))
     assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < 1e-9
