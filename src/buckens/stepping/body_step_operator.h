@@ -23,7 +23,7 @@ struct FactorSource {
   /// Exchange through which other simulations may have the factor; null: none.
   linalg::SolveExchange* exchange = nullptr;
   /// Makes the factor if nobody has it; empty: linalg::make_large_factor_of().
-  linalg::MakeFactor make;
+  linalg::MakeFactor make{};
 };
 
 /// Everything a step of fixed length needs of one flexible body: one factorisation of K̂ = m M + c
