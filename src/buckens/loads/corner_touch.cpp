@@ -24,12 +24,6 @@ constexpr double kDeepestCorner = 0.1;
 // Of the smaller body, by which places that touch nothing have to be nearer than those that may.
 constexpr double kBesideCorner = 3e-5;
 
-std::vector<AlignedBox3d> boxes_at(const std::vector<Polyhedron::Corner>& corners) {
-  std::vector<AlignedBox3d> out;
-  for (const Polyhedron::Corner& corner : corners) out.emplace_back(corner.at, corner.at);
-  return out;
-}
-
 /// The nearest of some corners over the faces of another body.
 class CornerOnFaces final : public spatial::TouchFinder {
  public:
@@ -37,7 +31,7 @@ class CornerOnFaces final : public spatial::TouchFinder {
                 double size, bool is_second)
       : faces_(std::move(faces)),
         corners_(std::move(corners)),
-        tree_(boxes_at(corners_), std::vector<std::uint32_t>(corners_.size(), 1U)),
+        tree_(boxes_of(corners_), std::vector<std::uint32_t>(corners_.size(), 1U)),
         deepest_(kDeepestCorner * size),
         beside_(kBesideCorner * size),
         is_second_(is_second) {}
@@ -119,6 +113,12 @@ class CornerOnFaces final : public spatial::TouchFinder {
 };
 
 }  // namespace
+
+std::vector<AlignedBox3d> boxes_of(const std::vector<Polyhedron::Corner>& corners) {
+  std::vector<AlignedBox3d> out;
+  for (const Polyhedron::Corner& corner : corners) out.emplace_back(corner.at, corner.at);
+  return out;
+}
 
 TouchFinders corners_on_faces(const std::shared_ptr<const Polyhedron>& faces,
                               const std::vector<Polyhedron::Corner>& corners, double size,

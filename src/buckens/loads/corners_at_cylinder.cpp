@@ -66,12 +66,6 @@ class CornersAtCylinder final : public spatial::TouchFinder {
     double order = HUGE_VAL;
   };
 
-  static std::vector<AlignedBox3d> boxes_of(const std::vector<Polyhedron::Corner>& corners) {
-    std::vector<AlignedBox3d> out;
-    for (const Polyhedron::Corner& corner : corners) out.emplace_back(corner.at, corner.at);
-    return out;
-  }
-
   /// @param x in axes of the cylinder
   TouchSurface::View view(Part part, const Vector3d& x) const {
     const double along = cylinder_.axis.dot(x);

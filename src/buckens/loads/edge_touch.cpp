@@ -54,7 +54,7 @@ class EdgesOverEdges {
       : own_(std::move(own)),
         other_(std::move(other)),
         edges_(std::move(edges)),
-        boxes_(boxes_of(*own_, edges_)),
+        boxes_(boxes_of(own_->edge_boxes(), edges_)),
         tree_(boxes_, std::vector<std::uint32_t>(edges_.size(), 1U)),
         other_tree_(other_->edge_boxes(), std::vector<std::uint32_t>(other_->edges().size(), 1U)),
         reach_(reach) {
@@ -80,12 +80,6 @@ class EdgesOverEdges {
   }
 
  private:
-  static std::vector<AlignedBox3d> boxes_of(const Polyhedron& body, const std::vector<int>& edges) {
-    std::vector<AlignedBox3d> out;
-    for (const int k : edges) out.push_back(body.edge_boxes()[static_cast<std::size_t>(k)]);
-    return out;
-  }
-
   /// Half the longest edge [m].
   static double longest(const Polyhedron& body) {
     double out = 0.0;

@@ -48,7 +48,7 @@ struct EdgesOfMesh {
               const TouchSurface& solid)
       : mesh(std::move(surface)),
         numbers(std::move(group)),
-        tree(boxes_of(*mesh, numbers), std::vector<std::uint32_t>(numbers.size(), 1U)),
+        tree(boxes_of(mesh->edge_boxes(), numbers), std::vector<std::uint32_t>(numbers.size(), 1U)),
         cylinder(solid),
         size(std::min(mesh->size(), greatest_length(solid))) {
     for (std::size_t k = 0; k < numbers.size(); ++k) {
@@ -78,12 +78,6 @@ struct EdgesOfMesh {
   }
 
  private:
-  static std::vector<AlignedBox3d> boxes_of(const Polyhedron& mesh,
-                                            const std::vector<int>& numbers) {
-    std::vector<AlignedBox3d> out;
-    for (const int k : numbers) out.push_back(mesh.edge_boxes()[static_cast<std::size_t>(k)]);
-    return out;
-  }
   /// Whether a point is in the cylinder.
   bool holds(const Vector3d& x, const MarkerMotion& M) const {
     return cylinder.look(M.R.transpose() * (x - M.p), false).distance <= mesh->same();

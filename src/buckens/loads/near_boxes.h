@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <span>
+#include <vector>
 
 #include "buckens/loads/box_tree.h"
 #include "buckens/loads/pose_memory.h"
@@ -15,6 +16,14 @@ inline Eigen::AlignedBox3d seen_from_first(const RelativePose& pose,
   const Eigen::Vector3d middle = pose.r + pose.R * box.center();
   const Eigen::Vector3d half = pose.R.cwiseAbs() * (0.5 * box.sizes());
   return {middle - half, middle + half};
+}
+
+/// Boxes of some of many things. @param numbers of these
+inline std::vector<Eigen::AlignedBox3d> boxes_of(const std::vector<Eigen::AlignedBox3d>& all,
+                                                 const std::vector<int>& numbers) {
+  std::vector<Eigen::AlignedBox3d> out;
+  for (const int k : numbers) out.push_back(all[static_cast<std::size_t>(k)]);
+  return out;
 }
 
 /// Distance of a box from the nearest of many [m]. @param enough what is nearer need not be known

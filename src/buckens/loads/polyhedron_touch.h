@@ -15,6 +15,9 @@ inline constexpr std::size_t kMostSingleEdges = 24, kEdgeGroups = 24;
 
 using spatial::TouchFinders;
 
+/// Boxes of no size, to look for corners by.
+std::vector<Eigen::AlignedBox3d> boxes_of(const std::vector<Polyhedron::Corner>& corners);
+
 /// Where sharp corners of one body touch faces of another: one finder for each, or for each group
 /// of them.
 /// @param size of the body with the corners [m], @param is_second it is M

@@ -36,7 +36,8 @@ class RimOverFaces final : public spatial::TouchFinder {
                double size)
       : mesh_(std::move(mesh)),
         facets_(std::move(facets)),
-        tree_(boxes_of(*mesh_, facets_), std::vector<std::uint32_t>(facets_.size(), 1U)),
+        tree_(boxes_of(mesh_->face_boxes(), facets_),
+              std::vector<std::uint32_t>(facets_.size(), 1U)),
         rim_(std::move(rim)),
         deepest_(kDeepestRim * size),
         beside_(kBesideFace * size) {}
@@ -65,12 +66,6 @@ class RimOverFaces final : public spatial::TouchFinder {
     double order = HUGE_VAL;
   };
 
-  static std::vector<AlignedBox3d> boxes_of(const Polyhedron& mesh,
-                                            const std::vector<int>& facets) {
-    std::vector<AlignedBox3d> out;
-    for (const int k : facets) out.push_back(mesh.face_boxes()[static_cast<std::size_t>(k)]);
-    return out;
-  }
   double height(int facet, const Vector3d& x) const {
     return mesh_->normal(facet).dot(x - mesh_->faces().corners(static_cast<std::size_t>(facet))[0]);
   }

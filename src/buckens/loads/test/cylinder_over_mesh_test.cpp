@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/loads/mesh_touch.h"
+#include "buckens/loads/test/triangle_ball.h"
 #include "buckens/loads/test/triangle_block.h"
 #include "buckens/spatial/capsule_touch.h"
 #include "buckens/spatial/cylinder_touch.h"
@@ -47,26 +48,6 @@ TouchSurface bar(TouchSurface::Kind kind) {
   out.axis = Vector3d(0.1, 0.9, -0.3).normalized();
   out.radius = 0.15;
   out.half_length = 0.2;
-  return out;
-}
-
-/// A round surface of triangles between circles.
-TriangleList ball(double radius, int around, int across) {
-  TriangleList out;
-  const auto at = [&](int i, int j) { return (i % around) * (across + 1) + j; };
-  for (int i = 0; i < around; ++i) {
-    for (int j = 0; j <= across; ++j) {
-      const double a = 2 * M_PI * i / around, b = M_PI * j / across;
-      out.points.emplace_back(radius * std::sin(b) * std::cos(a),
-                              radius * std::sin(b) * std::sin(a), -radius * std::cos(b));
-    }
-  }
-  for (int i = 0; i < around; ++i) {
-    for (int j = 0; j < across; ++j) {
-      out.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      out.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-  }
   return out;
 }
 
@@ -196,7 +177,7 @@ void expect_rates_of_all(const TouchFinders& finders, double apart, int at_least
 
 TEST(CylinderOverMesh, PlacesMoveAsTheirRatesSay) {
   const TouchSurface drum = bar(TouchSurface::Kind::cylinder);
-  for (const TriangleList& mesh : {block(2), ball(0.25, 12, 8)}) {
+  for (const TriangleList& mesh : {block(2), test::triangle_ball(0.25, 12, 8)}) {
     expect_rates_of_all(cylinder_over_mesh(std::make_shared<const Polyhedron>(mesh), drum), 0.42,
                         100);
   }
@@ -227,7 +208,7 @@ TEST(CapsuleOverMesh, TheLeastGapIsThatOfTheBox) {
 
 TEST(CapsuleOverMesh, TheLeastGapIsThatOfAllPointsOfTheAxis) {
   const TouchSurface rod = bar(TouchSurface::Kind::capsule);
-  const auto mesh = std::make_shared<const ContactMesh>(ball(0.25, 24, 14), 0.6);
+  const auto mesh = std::make_shared<const ContactMesh>(test::triangle_ball(0.25, 24, 14), 0.6);
   const TouchFinders finders = capsule_touches(mesh, rod);
   std::mt19937 chance(4);
   constexpr int kPoints = 1000;

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "buckens/loads/test/triangle_ball.h"
 #include "buckens/loads/test/triangle_block.h"
 #include "buckens/spatial/box_separation.h"
 #include "buckens/spatial/segment_pair.h"
@@ -38,24 +39,8 @@ Solid tines(int n) {
   return std::make_shared<const Polyhedron>(out);
 }
 
-/// A round surface of triangles between circles.
 Solid ball_of(double radius, int around, int across) {
-  TriangleList out;
-  const auto at = [&](int i, int j) { return (i % around) * (across + 1) + j; };
-  for (int i = 0; i < around; ++i) {
-    for (int j = 0; j <= across; ++j) {
-      const double a = 2 * M_PI * i / around, b = M_PI * j / across;
-      out.points.emplace_back(radius * std::sin(b) * std::cos(a),
-                              radius * std::sin(b) * std::sin(a), -radius * std::cos(b));
-    }
-  }
-  for (int i = 0; i < around; ++i) {
-    for (int j = 0; j < across; ++j) {
-      out.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      out.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-  }
-  return std::make_shared<const Polyhedron>(out);
+  return std::make_shared<const Polyhedron>(test::triangle_ball(radius, around, across));
 }
 
 /// Two markers near each other, in general position.
