@@ -2,49 +2,17 @@
 """Rigid contact of cylinders with boxes and with each other: standing, sliding, rolling, tipping, falling; exact motions."""
 
 import math
+import pathlib
 import random
+import sys
 
 import numpy
 import pytest
 
-G = 9.81
-DRUM = "{cylinder: {radius: 0.1, length: 0.2}}"
-LOG = "{cylinder: {radius: 0.1, length: 0.3, axis: [0, 1, 0]}}"
-SENSORS = "p: {position: b}, v: {velocity: b}, w: {angular-velocity: b}, c: {contact: c}, lost: {energy: dissipated}, balance: {energy: balance}"
+sys.path.insert(0, str(pathlib.Path(__file__).parent / "support"))
 
-
-def columns(out, name):
-    return numpy.stack([out[f"{name}.{axis}"] for axis in "xyz"], axis=1)
-
-
-def model(shapes, law, at="0, 0, 0.1", turned="", velocity="0, 0, 0", spin="0, 0, 0", inertia="0.02, 0.02, 0.01", gravity=(0, 0, -G), under=0.5,
-          duration="1 s", step="1 ms", every="20 ms", start="", push=""):
-    """@param under how far the middle of the first shape lies below the ground"""
-    return f"""
-buckens: 1
-gravity: [{gravity[0]!r}, {gravity[1]!r}, {gravity[2]!r}]
-bodies: {{b: {{rigid: {{mass: 2 kg, inertia: [{inertia}]}}, at: {{position: [{at}]{turned}}}}}}}
-loads:
-  c: {{contact: {{between: [{{ground: [0, 0, {-under}]}}, b], shapes: [{shapes}], {law}}}}}
-{push}
-initial: {{{start}bodies: {{b: {{velocity: [{velocity}], angular-velocity: [{spin}]}}}}}}
-simulation: {{duration: {duration}, step: {step}}}
-output: {{every: {every}, sensors: {{{SENSORS}}}}}
-"""
-
-
-SLOPE = (G / 2, 0, -G * math.sqrt(3) / 2)
-ON_PLANE = {
-    "stands": (DRUM, "static: 0.5", {}),
-    "slides": (DRUM, "static: 0.3", {"gravity": SLOPE}),
-    "sticks": (DRUM, "static: 0.7", {"gravity": SLOPE}),
-    "rolls": (LOG, "static: 0.4", {"gravity": SLOPE, "inertia": "0.02, 0.01, 0.02"}),
-    "slips": (LOG, "static: 0.19", {"gravity": SLOPE, "inertia": "0.02, 0.01, 0.02"}),
-    "falls-flat": (DRUM, "static: 0.4, restitution: 0.5", {"at": "0, 0, 0.4", "velocity": "0.3, 0.2, 0"}),
-    "falls-on-side": (LOG, "static: 0.4, restitution: 0.5", {"at": "0, 0, 0.4", "inertia": "0.02, 0.01, 0.02"}),
-    "leans": (DRUM, "static: 0.6", {"at": "0, 0, 0.2", "turned": ", orientation: {axis: [0, 1, 0], angle: 70 deg}", "velocity": "0, 1, 0",
-                                    "spin": "0, 0, -6", "duration": "0.3 s"}),
-}
+import cylinder_cases  # noqa: E402
+from cylinder_cases import DRUM, G, LOG, ON_PLANE, ROLLS, columns, model  # noqa: E402
 
 
 @pytest.mark.parametrize("first", ["{box: [9, 9, 1]}", "{cylinder: {radius: 5, length: 1}}"])
@@ -53,12 +21,7 @@ def test_it_moves_on_a_face_as_on_a_plane(sensors, name, first):
     shape, law, case = ON_PLANE[name]
     face = sensors(model(f"{first}, {shape}", law, **case))
     plane = sensors(model(f"{{plane: {{}}}}, {shape}", law, under=0, **case))
-    for column in ("p.x", "p.y", "p.z", "v.x", "v.y", "v.z", "w.x", "w.y", "w.z", "c.normal", "c.friction", "lost"):
-        # Residuals of steps, 1e-10 of what acts, summed up over a second.
-        assert face[column] == pytest.approx(plane[column], abs=1e-9, rel=1e-9), column
-    assert numpy.abs(face["balance"]).max() < 1e-3 * max(face["lost"][-1], 1e-3)
-    if name == "rolls":
-        assert face["p.x"] == pytest.approx(G / 6 * face["t"] ** 2, abs=1e-9)
+    cylinder_cases.check_moves_as_on_a_plane(name, face, plane)
 
 
 @pytest.mark.parametrize("shape, height", [(DRUM, 0.1), (LOG, 0.1)])
@@ -109,7 +72,7 @@ def test_a_lying_one_rolls_off_the_edge_of_a_box(sensors):
     """About the edge, without slip until it lets go where m v^2/R = m g cos a: 7 cos a = 4 + 3 v0^2/(g R)."""
     v = 0.3
     out = sensors(model(f"{{box: [0.4, 9, 1]}}, {LOG}", "static: 20", at="0.1, 0, 0.1", velocity=f"{v}, 0, 0", spin=f"0, {v / 0.1}, 0",
-                        inertia="0.02, 0.01, 0.02", duration="0.8 s", step="0.5 ms", every="0.5 ms"))
+                        inertia=ROLLS, duration="0.8 s", step="0.5 ms", every="0.5 ms"))
     t, rises = out["t"], out["p.x"] < 0.1999
     assert out["v.x"][rises] == pytest.approx(v, abs=1e-9) and out["p.z"][rises] == pytest.approx(0.1, abs=1e-10)
     lost = math.acos((4 + 3 * v * v / (G * 0.1)) / 7)
@@ -216,34 +179,7 @@ def test_free_collisions_keep_momentum(sensors, seed):
     """Linear and angular, also with friction; energy is that of the restitution, and the account closes."""
     chance = random.Random(seed)
     first = "cylinder" if seed % 2 else "box"
-
-    def vector(size):
-        return [chance.uniform(-size, size) for _ in range(3)]
-
-    friction = chance.choice([0, 0.3])
-    inertia = {"a": 3 * [0.04], "b": 3 * [0.02]}
-    turns = {one: (vector(1), chance.uniform(0, 3)) for one in "ab"}
-    out = sensors(f"""
-buckens: 1
-bodies:
-  a: {{rigid: {{mass: 3 kg, inertia: {inertia["a"]}}}, at: {{position: [0, 0, 0], orientation: {{axis: {turns["a"][0]}, angle: {turns["a"][1]}}}}}}}
-  b: {{rigid: {{mass: 2 kg, inertia: {inertia["b"]}}}, at: {{position: [0.7, {chance.uniform(-0.1, 0.1)}, {chance.uniform(-0.1, 0.1)}], orientation: {{axis: {turns["b"][0]}, angle: {turns["b"][1]}}}}}}}
-loads: {{c: {{contact: {{between: [a, b], shapes: [{SHAPES[first]}, {SHAPES["cylinder"]}], restitution: 0.6, static: {friction}}}}}}}
-initial: {{bodies: {{a: {{velocity: [1, 0, 0], angular-velocity: {vector(3)}}}, b: {{velocity: [-2, 0, 0], angular-velocity: {vector(3)}}}}}}}
-simulation: {{duration: 0.3 s, step: 0.5 ms}}
-output:
-  every: 5 ms
-  sensors: {{pa: {{position: a}}, pb: {{position: b}}, va: {{velocity: a}}, vb: {{velocity: b}}, wa: {{angular-velocity: a}}, wb: {{angular-velocity: b}}, lost: {{energy: dissipated}}, balance: {{energy: balance}}}}
-""")
-    linear = 3 * columns(out, "va") + 2 * columns(out, "vb")
-    assert linear == pytest.approx(numpy.tile([-1.0, 0, 0], (len(linear), 1)), abs=1e-11)
-    angular = sum(m * numpy.cross(columns(out, f"p{one}"), columns(out, f"v{one}")) + inertia[one][0] * columns(out, f"w{one}")
-                  for one, m in (("a", 3), ("b", 2)))
-    # The rest of a step goes on with the new velocities: h P times the slip, 5e-4 of some 5 N s and 1 m/s, is the bound.
-    assert angular == pytest.approx(numpy.tile(angular[0], (len(angular), 1)), abs=1e-4)
-    assert out["lost"][-1] > 0.1
-    # Errors of first order in the step, where they strike.
-    assert numpy.abs(out["balance"]).max() < 5e-3 * out["lost"][-1]
+    cylinder_cases.check_free_collision(sensors(cylinder_cases.free_collision(f"{SHAPES[first]}, {SHAPES['cylinder']}", chance)))
 
 
 # What lies below, what is thrown on it. Of 30 seeds each some end the run or leave the balance open: theory 25 §7.

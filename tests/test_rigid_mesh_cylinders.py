@@ -11,53 +11,17 @@ import pytest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent / "support"))
 
+import cylinder_cases  # noqa: E402
 import triangle_meshes  # noqa: E402
+from cylinder_cases import DRUM, G, LOG, ON_PLANE, ROLLS, STATE, columns, model  # noqa: E402
 
-G = 9.81
 BASE = "{stl: {file: base.stl, unit: 1 m}}"
-DRUM = "{cylinder: {radius: 0.1, length: 0.2}}"
-LOG = "{cylinder: {radius: 0.1, length: 0.3, axis: [0, 1, 0]}}"
-ROLLS = "0.02, 0.01, 0.02"  # its inertia about y is half m R^2
 BEAM = "{capsule: {radius: 0.1, length: 0.9, axis: [1, 0, 0]}}"
 LONG = "9e-3, 0.05, 0.05"
-SENSORS = "p: {position: b}, v: {velocity: b}, w: {angular-velocity: b}, c: {contact: c}, lost: {energy: dissipated}, balance: {energy: balance}"
-STATE = ("p.x", "p.y", "p.z", "v.x", "v.y", "v.z", "w.x", "w.y", "w.z")
-
-
-def columns(out, name):
-    return numpy.stack([out[f"{name}.{axis}"] for axis in "xyz"], axis=1)
-
-
-def model(shapes, law, at="0, 0, 0.1", turned="", velocity="0, 0, 0", spin="0, 0, 0", inertia="0.02, 0.02, 0.01", gravity=(0, 0, -G), under=0.5,
-          duration="1 s", step="1 ms", every="20 ms"):
-    """@param under how far the middle of the first shape lies below the ground"""
-    return f"""
-buckens: 1
-gravity: [{gravity[0]!r}, {gravity[1]!r}, {gravity[2]!r}]
-bodies: {{b: {{rigid: {{mass: 2 kg, inertia: [{inertia}]}}, at: {{position: [{at}]{turned}}}}}}}
-loads: {{c: {{contact: {{between: [{{ground: [0, 0, {-under}]}}, b], shapes: [{shapes}], {law}}}}}}}
-initial: {{bodies: {{b: {{velocity: [{velocity}], angular-velocity: [{spin}]}}}}}}
-simulation: {{duration: {duration}, step: {step}}}
-output: {{every: {every}, sensors: {{{SENSORS}}}}}
-"""
 
 
 def write(tmp_path, mesh, name="base"):
     triangle_meshes.write_stl(tmp_path / f"{name}.stl", *mesh, text=True)
-
-
-SLOPE = (G / 2, 0, -G * math.sqrt(3) / 2)
-ON_PLANE = {
-    "stands": (DRUM, "static: 0.5", {}),
-    "slides": (DRUM, "static: 0.3", {"gravity": SLOPE}),
-    "sticks": (DRUM, "static: 0.7", {"gravity": SLOPE}),
-    "rolls": (LOG, "static: 0.4", {"gravity": SLOPE, "inertia": ROLLS}),
-    "slips": (LOG, "static: 0.19", {"gravity": SLOPE, "inertia": ROLLS}),
-    "falls-flat": (DRUM, "static: 0.4, restitution: 0.5", {"at": "0, 0, 0.4", "velocity": "0.3, 0.2, 0"}),
-    "falls-on-side": (LOG, "static: 0.4, restitution: 0.5", {"at": "0, 0, 0.4", "inertia": ROLLS}),
-    "leans": (DRUM, "static: 0.6", {"at": "0, 0, 0.2", "turned": ", orientation: {axis: [0, 1, 0], angle: 70 deg}", "velocity": "0, 1, 0",
-                                    "spin": "0, 0, -6", "duration": "0.3 s"}),
-}
 
 
 @pytest.mark.parametrize("name", ON_PLANE)
@@ -67,14 +31,7 @@ def test_it_moves_on_a_face_as_on_a_plane(sensors, tmp_path, name):
     write(tmp_path, triangle_meshes.box([9, 9, 1], 6))
     face = sensors(model(f"{BASE}, {shape}", law, **case))
     plane = sensors(model(f"{{plane: {{}}}}, {shape}", law, under=0, **case))
-    for column in (*STATE, "c.normal", "c.friction", "lost"):
-        # Residuals of steps, 1e-10 of what acts, summed up over a second.
-        assert face[column] == pytest.approx(plane[column], abs=1e-9, rel=1e-9), column
-    assert numpy.abs(face["balance"]).max() < 1e-3 * max(face["lost"][-1], 1e-3)
-    if name == "rolls":
-        assert face["p.x"] == pytest.approx(G / 6 * face["t"] ** 2, abs=1e-9)
-    if name == "slides":
-        assert face["p.x"] == pytest.approx((0.5 - 0.15 * math.sqrt(3)) * G / 2 * face["t"] ** 2, abs=1e-9)
+    cylinder_cases.check_moves_as_on_a_plane(name, face, plane)
 
 
 @pytest.mark.parametrize("shape", [DRUM, LOG])
@@ -260,31 +217,7 @@ def test_free_collisions_keep_momentum(sensors, tmp_path, seed):
     shape = "{cylinder: {radius: 0.12, length: 0.3}}" if seed % 2 else "{capsule: {radius: 0.08, length: 0.3}}"
     write(tmp_path, triangle_meshes.join((triangle_meshes.box([0.3, 0.25, 0.1], 2), [0, 0, -0.05]), (triangle_meshes.box([0.1, 0.25, 0.2], 1), [0.1, 0, 0.1])))
 
-    def vector(size):
-        return [chance.uniform(-size, size) for _ in range(3)]
-
-    friction = chance.choice([0, 0.3])
-    out = sensors(f"""
-buckens: 1
-bodies:
-  a: {{rigid: {{mass: 3 kg, inertia: [0.04, 0.04, 0.04]}}, at: {{position: [0, 0, 0], orientation: {{axis: {vector(1)}, angle: {chance.uniform(0, 3)}}}}}}}
-  b: {{rigid: {{mass: 2 kg, inertia: [0.02, 0.02, 0.02]}}, at: {{position: [0.7, {chance.uniform(-0.1, 0.1)}, {chance.uniform(-0.1, 0.1)}], orientation: {{axis: {vector(1)}, angle: {chance.uniform(0, 3)}}}}}}}
-loads: {{c: {{contact: {{between: [a, b], shapes: [{BASE}, {shape}], restitution: 0.6, static: {friction}}}}}}}
-initial: {{bodies: {{a: {{velocity: [1, 0, 0], angular-velocity: {vector(3)}}}, b: {{velocity: [-2, 0, 0], angular-velocity: {vector(3)}}}}}}}
-simulation: {{duration: 0.3 s, step: 0.5 ms}}
-output:
-  every: 5 ms
-  sensors: {{pa: {{position: a}}, pb: {{position: b}}, va: {{velocity: a}}, vb: {{velocity: b}}, wa: {{angular-velocity: a}}, wb: {{angular-velocity: b}}, lost: {{energy: dissipated}}, balance: {{energy: balance}}}}
-""")
-    linear = 3 * columns(out, "va") + 2 * columns(out, "vb")
-    assert linear == pytest.approx(numpy.tile([-1.0, 0, 0], (len(linear), 1)), abs=1e-11)
-    angular = sum(m * numpy.cross(columns(out, f"p{one}"), columns(out, f"v{one}")) + inertia * columns(out, f"w{one}")
-                  for one, m, inertia in (("a", 3, 0.04), ("b", 2, 0.02)))
-    # The rest of a step goes on with the new velocities: h P times the slip, 5e-4 of some 5 N s and 1 m/s, is the bound.
-    assert angular == pytest.approx(numpy.tile(angular[0], (len(angular), 1)), abs=1e-4)
-    assert out["lost"][-1] > 0.1
-    # Errors of first order in the step, where they strike.
-    assert numpy.abs(out["balance"]).max() < 5e-3 * out["lost"][-1]
+    cylinder_cases.check_free_collision(sensors(cylinder_cases.free_collision(f"{BASE}, {shape}", chance)))
 
 
 # What lies below, what is thrown on it. Of 30 seeds each none ends the run, and three leave the balance open: theory 25 §7.
