@@ -137,7 +137,14 @@ void MultiplierCondensation::add_body(std::size_t b, const BodyCompliance& compl
   };
   const int* place = places_[b].data();
   Images images;
+  const auto is_idle = [&](const BlockOnBody& k) {
+    return is_idle_[static_cast<std::size_t>(k.block)] != 0;
+  };
   for (const BlockOnBody& j : list) {
+    if (is_idle(j)) {
+      place += list.size();
+      continue;
+    }
     const RowBlock::Side& acting = side_of(force_, j);
     const int columns = count_of(j);
     for (int m = 0; m < columns; ++m) {
@@ -151,6 +158,10 @@ void MultiplierCondensation::add_body(std::size_t b, const BodyCompliance& compl
     }
     const bool on_interface = compliance.interface != nullptr && acting.follows_mesh();
     for (const BlockOnBody& i : list) {
+      if (is_idle(i)) {
+        ++place;
+        continue;
+      }
       const RowBlock::Side& closing = side_of(test, i);
       const int rows = count_of(i);
       double* const S = into.block(*place);
@@ -169,10 +180,28 @@ void MultiplierCondensation::add_body(std::size_t b, const BodyCompliance& compl
   }
 }
 
+void MultiplierCondensation::find_idle_blocks() {
+  is_idle_.assign(num_direct_blocks_, 1);
+  for (std::size_t k = 0; k < num_direct_blocks_; ++k) {
+    const RowBlock& block = force_.blocks()[k];
+    for (int m = 0; m < block.count && is_idle_[k]; ++m) {
+      is_idle_[k] = is_empty(block.rows[static_cast<std::size_t>(m)]);
+    }
+  }
+  for (const MultiplierSlope& slope : slopes_) {
+    for (const int row : {slope.soft_row, slope.row}) {
+      const auto block = static_cast<std::size_t>(force_.block_of(row));
+      if (block < num_direct_blocks_) is_idle_[block] = 0;
+    }
+  }
+}
+
 void MultiplierCondensation::assemble(const std::vector<BodyCompliance>& compliance,
                                       const std::vector<double>& soft_compliance,
-                                      linalg::BlockLu& into) const {
+                                      linalg::BlockLu& into) {
   into.clear();
+  find_idle_blocks();
+  into.set_alone(is_idle_);
   for (std::size_t b = 0; b < blocks_on_body_.size(); ++b) {
     if (!blocks_on_body_[b].empty()) add_body(b, compliance[b], into);
   }
@@ -181,54 +210,6 @@ void MultiplierCondensation::assemble(const std::vector<BodyCompliance>& complia
   for (std::size_t k = 0; k < num_direct; ++k) {
     into.diagonal(first_soft + static_cast<int>(k)) += soft_compliance[k];
   }
-}
-
-template <class Take>
-void MultiplierCondensation::for_entries(Take&& take) {
-  for (const auto& [i, j] : couples_) {
-    const RowBlock& row = force_.blocks()[static_cast<std::size_t>(i)];
-    const RowBlock& column = force_.blocks()[static_cast<std::size_t>(j)];
-    const int place = block_lu_.place(i, j);
-    const double* const S = block_lu_.block(place);
-    const int stride = block_lu_.stride(place);
-    for (int m = 0; m < column.count; ++m) {
-      for (int k = 0; k < row.count; ++k) {
-        take(row.rows[static_cast<std::size_t>(k)], column.rows[static_cast<std::size_t>(m)],
-             S[m * stride + k]);
-      }
-    }
-  }
-}
-
-void MultiplierCondensation::make_general() {
-  std::vector<linalg::Triplet> entries;
-  for_entries([&](int row, int column, double value) { entries.emplace_back(row, column, value); });
-  S_.resize(size() - num_loose_, size() - num_loose_);
-  S_.setFromTriplets(entries.begin(), entries.end());
-  general_.emplace(S_);
-}
-
-bool MultiplierCondensation::factorise_with_exchanges() {
-  if (!general_) {
-    make_general();
-  } else {
-    for_entries([&](int row, int column, double value) { S_.coeffRef(row, column) = value; });
-  }
-  return general_->factorise(S_);
-}
-
-std::vector<double> MultiplierCondensation::pivoted_values() const {
-  return general_ ? general_->pivoted_values() : std::vector<double>{};
-}
-
-void MultiplierCondensation::pivot_as(const std::vector<double>& values) {
-  if (values.empty()) return;
-  block_lu_.clear();
-  make_general();
-  // Values of other rows say nothing about these.
-  if (static_cast<std::size_t>(S_.nonZeros()) != values.size()) return general_.reset();
-  std::copy(values.begin(), values.end(), S_.valuePtr());
-  general_->factorise(S_);
 }
 
 bool MultiplierCondensation::factorise(const std::vector<BodyCompliance>& compliance,
@@ -281,7 +262,7 @@ void MultiplierCondensation::solve_direct(linalg::Vector& x, Slopes slopes) cons
   if (slopes == Slopes::counted && has_sloped_) {
     sloped_->solve_in_place(x);
   } else if (exchanges_rows_) {
-    general_->solve_in_place(x);
+    solve_with_exchanges(x);
   } else {
     block_lu_.solve_in_place(x);
   }

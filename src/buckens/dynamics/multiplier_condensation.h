@@ -7,6 +7,7 @@
 #include "buckens/dynamics/row_blocks.h"
 #include "buckens/dynamics/system_kinematics.h"
 #include "buckens/linalg/block_lu.h"
+#include "buckens/linalg/small_lu.h"
 #include "buckens/linalg/sparse_lu.h"
 
 namespace buckens::dynamics {
@@ -32,7 +33,9 @@ struct MultiplierSlope {
 /// Rows are constraints in use, followed by the soft rows of force elements. Bodies enter only by
 /// small dense blocks, so the matrix is sparse across joints; its pattern is found once. The blocks
 /// are eliminated without pivoting (linalg::BlockLu); if that gives poor pivots, rows are exchanged
-/// (linalg::SparseLu).
+/// (linalg::SparseLu). Most places of a rigid contact do not touch: their rows are empty, and cost
+/// nothing. Of what is left then, rows are exchanged in a dense matrix (linalg::SmallLu) while it
+/// is small.
 ///
 /// Contacts of many bodies change from step to step and would fill the factor. Their rows, the last
 /// ones, are left out of it: with them the system is solved by iteration, which their own give
@@ -113,14 +116,20 @@ class MultiplierCondensation {
     int side;
   };
   void assemble(const std::vector<BodyCompliance>& compliance,
-                const std::vector<double>& soft_compliance, linalg::BlockLu& into) const;
+                const std::vector<double>& soft_compliance, linalg::BlockLu& into);
   void add_body(std::size_t b, const BodyCompliance& compliance, linalg::BlockLu& into) const;
   void subtract_slopes(const std::vector<double>& soft_compliance, linalg::BlockLu& from) const;
   /// Calls take(row, column, value) for every entry of S.
   template <class Take>
   void for_entries(Take&& take);
+  /// Finds the blocks that have only empty rows and no slopes.
+  void find_idle_blocks();
+  bool is_empty(int row) const { return force_.is_empty(row) && (!test_ || test_->is_empty(row)); }
   void make_general();
   bool factorise_with_exchanges();
+  /// Takes the rows that are not empty, if they are few and others are. @return whether it did
+  bool take_small();
+  void solve_with_exchanges(linalg::Vector& x) const;
   bool factorise_direct(const std::vector<BodyCompliance>& compliance,
                         const std::vector<double>& soft_compliance);
   void factorise_with_slopes(const std::vector<double>& soft_compliance);
@@ -144,6 +153,14 @@ class MultiplierCondensation {
   bool exchanges_rows_ = false;  // the last factorisation is that of general_
   linalg::SparseMatrix S_;       // for general_, empty until it is needed
   std::optional<linalg::SparseLu> general_;
+  std::vector<char> is_idle_;        // per block that is factorised
+  bool is_small_ = false;            // rows are exchanged in small_, not in general_
+  std::vector<int> rows_of_small_;   // all but empty ones
+  std::vector<int> place_in_small_;  // of each row, −1: empty
+  linalg::Matrix small_matrix_;
+  linalg::Vector diagonal_of_empty_;
+  linalg::SmallLu small_;
+  mutable linalg::Vector small_x_;
   std::vector<MultiplierSlope> slopes_;
   std::optional<linalg::BlockLu> sloped_;  // S′, empty until it is needed
   std::vector<double> before_slopes_;      // its values without them

@@ -10,6 +10,7 @@ void MultiplierCondensation::factorise_with_slopes(const std::vector<double>& so
   if (slopes_.empty()) return;
   if (!sloped_) sloped_ = block_lu_;
   before_slopes_ = block_lu_.values();
+  sloped_->set_alone(is_idle_);
   sloped_->take_values(before_slopes_);
   subtract_slopes(soft_compliance, *sloped_);
   has_sloped_ = sloped_->factorise() && sloped_->pivot_ratio() > kPoorPivot;
@@ -38,6 +39,8 @@ void MultiplierCondensation::renew_slopes(const std::vector<MultiplierSlope>& sl
                                           const std::vector<double>& soft_compliance) {
   if (!has_sloped_) return;
   slopes_ = slopes;
+  find_idle_blocks();
+  sloped_->set_alone(is_idle_);
   sloped_->take_values(before_slopes_);
   subtract_slopes(soft_compliance, *sloped_);
   has_sloped_ = sloped_->factorise() && sloped_->pivot_ratio() > kPoorPivot;

@@ -21,6 +21,13 @@ bool touch_the_same(const SystemRow& row, std::span<const RowBlock::Side> sides)
   return true;
 }
 
+bool acts_on_nothing(const SystemRow& row) {
+  for (const BodyRow* part : row.parts()) {
+    if (part->body != model::kGround) return false;
+  }
+  return true;
+}
+
 /// What rows of one block have in common.
 std::vector<int> kind_of(const SystemRow& row) {
   std::vector<int> out = {row.travelling};
@@ -53,7 +60,7 @@ RowBlocks::RowBlocks(const std::vector<SystemRow>& pattern, int num_behind) {
       if (before != nullptr) *before = index;
     }
     RowBlock& block = blocks_[static_cast<std::size_t>(index)];
-    places_.push_back({index, block.count});
+    places_.push_back({index, block.count, false});
     block.rows[static_cast<std::size_t>(block.count++)] = static_cast<int>(r);
   }
   lay_out();
@@ -90,7 +97,8 @@ void RowBlocks::lay_out() {
 }
 
 void RowBlocks::set(int row, const SystemRow& values) {
-  const Place& place = places_[static_cast<std::size_t>(row)];
+  Place& place = places_[static_cast<std::size_t>(row)];
+  place.is_empty = acts_on_nothing(values);
   const RowBlock& block = blocks_[static_cast<std::size_t>(place.block)];
   const auto offset = static_cast<std::size_t>(6 * place.number);
   static const BodyRow nothing;

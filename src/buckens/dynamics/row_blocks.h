@@ -67,6 +67,8 @@ class RowBlocks {
   /// Stores the numbers of a row. Its bodies are those of the pattern, and its marker rows unless
   /// it travels; an empty row is zero.
   void set(int row, const SystemRow& values);
+  /// Whether the row was set to nothing.
+  bool is_empty(int row) const { return places_[static_cast<std::size_t>(row)].is_empty; }
 
   /// Derivatives of row `k` of a block on one side: six of the frame, six of the interface.
   const double* frame(const RowBlock::Side& side, int k) const {
@@ -115,6 +117,7 @@ class RowBlocks {
   std::vector<RowBlock::Side> sides_;  // block by block
   struct Place {
     int block, number;
+    bool is_empty = false;
   };
   std::vector<Place> places_;  // of each row
   std::vector<double> values_;

@@ -187,12 +187,12 @@ void BlockLu::lay_out() {
     for (const int other : coupled_[k]) {
       const auto o = static_cast<std::size_t>(other);
       neighbours_.push_back({stored(other), turn[o], first_stored_[o], first_of(other, block),
-                             first_of(block, other)});
+                             first_of(block, other), false});
     }
     std::sort(neighbours_.begin() + static_cast<std::ptrdiff_t>(first), neighbours_.end(),
               [](const Neighbour& a, const Neighbour& b) { return a.turn < b.turn; });
     pivots_.push_back({block, stored(block), first_stored_[static_cast<std::size_t>(block)],
-                       first_of(block, block), first, neighbours_.size()});
+                       first_of(block, block), first, neighbours_.size(), false});
   }
   coupled_.clear();
   place_rows();
@@ -221,6 +221,16 @@ void BlockLu::clear() {
   }
 }
 
+void BlockLu::set_alone(const std::vector<char>& blocks) {
+  const auto is_alone = [&](int block) {
+    return !blocks.empty() && blocks[static_cast<std::size_t>(block)] != 0;
+  };
+  for (Pivot& pivot : pivots_) pivot.is_alone = is_alone(pivot.block);
+  for (Neighbour& other : neighbours_) {
+    other.is_alone = pivots_[static_cast<std::size_t>(other.turn)].is_alone;
+  }
+}
+
 double& BlockLu::diagonal(int row) { return values_[diagonal_[static_cast<std::size_t>(row)]]; }
 
 template <int R>
@@ -241,8 +251,10 @@ bool BlockLu::eliminate() {
     const double share = factor_diagonal<R>(A, pivot.stored, inverse, &x_[pivot.first_stored]);
     if (share < 0.0) return false;
     ratio = std::min(ratio, share);
+    if (pivot.is_alone) continue;
     for (std::size_t i = pivot.first_neighbour; i < pivot.end_neighbour; ++i) {
       const Neighbour& other = neighbours_[i];
+      if (other.is_alone) continue;
       solve_lower<R>(A, pivot.stored, values + other.upper, other.stored);
       solve_upper<R>(A, pivot.stored, inverse, values + other.lower, other.stored);
     }
@@ -262,12 +274,14 @@ void BlockLu::update_later(const Pivot& pivot) {
   };
   for (std::size_t i = pivot.first_neighbour; i < pivot.end_neighbour; ++i) {
     const Neighbour& one = neighbours_[i];
+    if (one.is_alone) continue;
     const Pivot& later = pivots_[static_cast<std::size_t>(one.turn)];
     subtract(one, one, later.diagonal);
     // Neighbours that come after it are neighbours of its own, in the same order.
     const Neighbour* own = neighbours_.data() + later.first_neighbour;
-    for (std::size_t j = i + 1; j < pivot.end_neighbour; ++j, ++own) {
+    for (std::size_t j = i + 1; j < pivot.end_neighbour; ++j) {
       const Neighbour& other = neighbours_[j];
+      if (other.is_alone) continue;
       while (own->turn != other.turn) ++own;
       subtract(other, one, own->lower);
       subtract(one, other, own->upper);
@@ -282,17 +296,28 @@ void BlockLu::substitute() const {
   for (const Pivot& pivot : pivots_) {
     double* const mine = x + pivot.first_stored;
     substitute_forward<R>(values + pivot.diagonal, pivot.stored, mine);
+    if (pivot.is_alone) continue;
     for (std::size_t i = pivot.first_neighbour; i < pivot.end_neighbour; ++i) {
       const Neighbour& other = neighbours_[i];
+      if (other.is_alone) continue;
       subtract_times<R>(values + other.lower, other.stored, pivot.stored, mine,
                         x + other.first_stored);
     }
   }
+  substitute_backward<R>();
+}
+
+template <int R>
+void BlockLu::substitute_backward() const {
+  const double* const values = values_.data();
+  double* const x = x_.data();
   for (std::size_t k = pivots_.size(); k-- > 0;) {
     const Pivot& pivot = pivots_[k];
     double* const mine = x + pivot.first_stored;
-    for (std::size_t i = pivot.first_neighbour; i < pivot.end_neighbour; ++i) {
+    const std::size_t end = pivot.is_alone ? pivot.first_neighbour : pivot.end_neighbour;
+    for (std::size_t i = pivot.first_neighbour; i < end; ++i) {
       const Neighbour& other = neighbours_[i];
+      if (other.is_alone) continue;
       subtract_times<R>(values + other.upper, pivot.stored, other.stored, x + other.first_stored,
                         mine);
     }

@@ -44,6 +44,10 @@ class BlockLu {
   int stride(int place) const { return places_[static_cast<std::size_t>(place)].stride; }
   /// A diagonal entry of the matrix.
   double& diagonal(int row);
+  /// Says which blocks have nothing off their diagonal block in the matrices to come, neither by
+  /// row nor by column: they cost nothing, and the result is the same.
+  /// @param blocks one entry per block, not zero: alone; empty: none
+  void set_alone(const std::vector<char>& blocks);
 
   /// Factorises what was entered. @return false if a pivot is not positive or not a number
   bool factorise();
@@ -69,6 +73,7 @@ class BlockLu {
     std::size_t first_stored;  // of its rows in x_ and inverse_
     std::size_t diagonal;      // first value of the diagonal block
     std::size_t first_neighbour, end_neighbour;
+    bool is_alone = false;
   };
   /// A remaining block coupled with the pivot. Those of one pivot are sorted by their own order of
   /// elimination.
@@ -77,6 +82,7 @@ class BlockLu {
     int turn;  // its own in pivots_
     std::size_t first_stored;
     std::size_t lower, upper;  // first values of (neighbour, pivot) and (pivot, neighbour)
+    bool is_alone = false;
   };
 
   void order(const std::vector<std::pair<int, int>>& couples);
@@ -88,6 +94,8 @@ class BlockLu {
   void update_later(const Pivot& pivot);
   template <int R>
   void substitute() const;
+  template <int R>
+  void substitute_backward() const;
 
   std::vector<int> sizes_;
   std::vector<int> rows_;                  // in vectors, block by block

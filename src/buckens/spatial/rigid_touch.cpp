@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/spatial/rigid_touch.h"
 
+#include <atomic>
+
 #include "buckens/spatial/box_touch.h"
+#include "buckens/spatial/last_looks.h"
 #include "buckens/spatial/rim_touch.h"
 
 namespace buckens::spatial {
@@ -39,8 +42,18 @@ void RigidTouch::look_at_rim(const MarkerMotion& F, const MarkerMotion& M, Touch
   out.gap = out.normal.dot(out.place - F.p);
 }
 
+RigidTouch::RigidTouch(const Data& data) : data_(data) {
+  static std::atomic<std::uint64_t> last = 0;
+  number_ = ++last;
+}
+
 TouchPlace RigidTouch::look(const MarkerMotion& F, const MarkerMotion& M) const {
-  TouchPlace out;
+  return LastLooks::of_this_thread().find(number_, F, M,
+                                          [&](TouchPlace& out) { look_anew(F, M, out); });
+}
+
+void RigidTouch::look_anew(const MarkerMotion& F, const MarkerMotion& M, TouchPlace& out) const {
+  out = {};
   switch (data_.feature) {
     case Feature::point_of_second:
       set_sphere_at(data_.surface, F, MovingPoint::of(M, data_.at), data_.radius, out);
@@ -66,7 +79,6 @@ TouchPlace RigidTouch::look(const MarkerMotion& F, const MarkerMotion& M) const 
       break;
   }
   set_directions(F, out);
-  return out;
 }
 
 void RigidTouch::set_directions(const MarkerMotion& F, TouchPlace& out) const {

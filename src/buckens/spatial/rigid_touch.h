@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -69,8 +70,10 @@ class RigidTouch {
     std::optional<Eigen::Vector3d> out_of_plane = {};  ///< unit vector in F of planar models
     std::shared_ptr<const TouchFinder> finder = {};
   };
-  explicit RigidTouch(const Data& data) : data_(data) {}
+  explicit RigidTouch(const Data& data);
 
+  /// Costs next to nothing where this touch or a copy of it was last looked at for the same
+  /// motions.
   TouchPlace look(const MarkerMotion& F, const MarkerMotion& M) const;
   /// Whether it can cease to touch while the bodies are near: TouchPlace::touches.
   bool may_go() const { return data_.feature == Feature::found; }
@@ -78,10 +81,12 @@ class RigidTouch {
   int num_directions() const { return data_.out_of_plane ? 1 : 2; }
 
  private:
+  void look_anew(const MarkerMotion& F, const MarkerMotion& M, TouchPlace& out) const;
   void look_at_rim(const MarkerMotion& F, const MarkerMotion& M, TouchPlace& out) const;
   void set_directions(const MarkerMotion& F, TouchPlace& out) const;
 
   Data data_;
+  std::uint64_t number_;  // that of its copies, too
 };
 
 }  // namespace buckens::spatial

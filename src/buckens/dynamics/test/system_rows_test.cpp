@@ -218,7 +218,7 @@ void expect_slopes(const MultiplierCondensation& condensation, Matrix S,
                    const std::vector<double>& soft, const std::vector<MultiplierSlope>& slopes,
                    const Vector& x, double accuracy) {
   for (const MultiplierSlope& slope : slopes) {
-    const auto own = static_cast<std::size_t>(slope.soft_row - (S.rows() - 2));
+    const auto own = static_cast<std::size_t>(slope.soft_row - (S.rows() - std::ssize(soft)));
     S(slope.soft_row, slope.row) -= soft[own] * slope.value;
   }
   Vector found = S * x;
@@ -247,8 +247,9 @@ void expect_gathered(const model::Model& model, const MultiplierCondensation& co
 
 /// @param sign of the frames' compliance: −1 leaves no matrix that is nearly positive definite
 /// @param slopes of soft rows with multipliers
+/// @param num_empty soft rows before the last two that act on nothing
 void expect_the_dense_matrix(double sign, int num_loose = 0, double accuracy = 1e-14,
-                             const std::vector<MultiplierSlope>& slopes = {}) {
+                             const std::vector<MultiplierSlope>& slopes = {}, int num_empty = 0) {
   const model::Model model = test::slider_crank(2);
   const Motions path(model);
   Constraints closed, acting;
@@ -271,13 +272,17 @@ void expect_the_dense_matrix(double sign, int num_loose = 0, double accuracy = 1
     if (rows > 0) C.block(at, at, rows, rows) = *compliance[b].interface;
     at += rows;
   }
-  Matrix S = dense(model, closed.rows) * C * dense(model, acting.rows).transpose();
-  const std::vector<double> soft = {0.3, 0.7};  // of the last two rows
-  S(S.rows() - 2, S.cols() - 2) += soft[0];
-  S(S.rows() - 1, S.cols() - 1) += soft[1];
-
   MultiplierCondensation condensation(static_cast<int>(model.bodies.size()), closed.rows,
                                       num_loose);
+  std::vector<double> soft = {0.3, 0.7};  // of the last two rows
+  for (int k = 0; k < num_empty; ++k) {
+    const std::size_t row = closed.rows.size() - 3 - static_cast<std::size_t>(k);
+    closed.rows[row] = acting.rows[row] = SystemRow{};
+    soft.insert(soft.begin(), 0.5 + k);
+  }
+  Matrix S = dense(model, closed.rows) * C * dense(model, acting.rows).transpose();
+  S.diagonal().tail(std::ssize(soft)) += Vector::Map(soft.data(), std::ssize(soft));
+
   condensation.set_slopes(slopes);
   ASSERT_TRUE(condensation.factorise(closed.rows, acting.rows, compliance, soft));
   // A second time into the same memory.
@@ -317,6 +322,16 @@ TEST(MultiplierCondensation, IteratesWithRowsThatAreNotFactorised) {
 }
 
 TEST(MultiplierCondensation, ExchangesRowsWherePivotsArePoor) { expect_the_dense_matrix(-1.0); }
+
+TEST(MultiplierCondensation, LeavesOutRowsThatActOnNothing) {
+  const int rows = test::slider_crank(2).num_constraint_rows();
+  for (const int num_empty : {1, 3, 5}) {
+    expect_the_dense_matrix(1.0, 0, 1e-14, {}, num_empty);
+    expect_the_dense_matrix(1.0, 0, 1e-14, {{rows - 2, rows - 1, 0.4}}, num_empty);
+    expect_the_dense_matrix(1.0, 1, 1e-10, {}, num_empty);
+    expect_the_dense_matrix(-1.0, 0, 1e-14, {}, num_empty);
+  }
+}
 
 }  // namespace
 }  // namespace buckens::dynamics

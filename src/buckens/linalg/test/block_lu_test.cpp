@@ -154,6 +154,35 @@ TEST(BlockLu, SolvesTreesLoopsAndCliques) {
   clique.expect_solution(of_clique);
 }
 
+TEST(BlockLu, BlocksThatAreAloneChangeNothing) {
+  Couples all = chain(6);
+  all.emplace_back(0, 5);
+  all.emplace_back(1, 4);
+  for (const int size : {2, 5}) {
+    Example example(std::vector<int>(6, size), all);
+    const std::vector<char> alone = {0, 1, 0, 0, 1, 0};
+    for (const int block : {1, 4}) {
+      const int first = example.first[static_cast<std::size_t>(block)];
+      const Matrix own = example.A.block(first, first, size, size);
+      example.A.middleRows(first, size).setZero();
+      example.A.middleCols(first, size).setZero();
+      example.A.block(first, first, size, size) = own;
+    }
+    BlockLu told(example.sizes, example.couples), untold(example.sizes, example.couples);
+    told.set_alone(alone);
+    example.expect_solution(told);
+    example.expect_solution(untold);
+    EXPECT_EQ(told.pivot_ratio(), untold.pivot_ratio());
+    Vector x = Vector::LinSpaced(example.A.rows(), -1.0, 2.0), y = x;
+    told.solve_in_place(x);
+    untold.solve_in_place(y);
+    EXPECT_EQ(x, y);  // to the last bit: products with zero are left out, no more
+    // And takes part again.
+    told.set_alone({});
+    Example(std::vector<int>(6, size), all).expect_solution(told);
+  }
+}
+
 TEST(BlockLu, TellsPoorPivots) {
   const Example example({2, 2}, chain(2));
   BlockLu lu(example.sizes, example.couples);

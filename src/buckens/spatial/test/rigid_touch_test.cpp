@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -189,6 +191,48 @@ TEST(RigidTouch, TheLowestPointOfARimIsBelowAllOthers) {
   }
   EXPECT_LE(place.gap, least + 1e-14);
   EXPECT_NEAR(place.gap, least, 1e-6);  // 0.3 (1 - cos of half a tenth of a degree) = 1e-7
+}
+
+/// Counts how often it is asked.
+struct CountingFinder final : TouchFinder {
+  void look(const MarkerMotion& F, const MarkerMotion& M, TouchPlace& out) const override {
+    ++num_looks;
+    out.place = M.p;
+    out.normal = (M.p - F.p).normalized();
+    out.gap = (M.p - F.p).norm();
+    out.place_rate = M.v;
+    out.normal_rate.setZero();
+  }
+  mutable int num_looks = 0;
+};
+
+TEST(RigidTouch, LooksOnceForTheSameMotions) {
+  const auto finder = std::make_shared<CountingFinder>();
+  RigidTouch::Data data;
+  data.feature = RigidTouch::Feature::found;
+  data.finder = finder;
+  const RigidTouch touch(data);
+  const RigidTouch copy = touch, other(data);
+  MarkerMotion F, M;
+  M.p = {0, 0, 2};
+  EXPECT_EQ(touch.look(F, M).gap, 2);
+  EXPECT_EQ(copy.look(F, M).gap, 2);
+  EXPECT_EQ(finder->num_looks, 1);
+  EXPECT_EQ(other.look(F, M).gap, 2);
+  EXPECT_EQ(finder->num_looks, 2);
+  // Anything that moves is looked at anew, and what was before it as well.
+  M.v = {0, 0, 1};
+  EXPECT_EQ(touch.look(F, M).place_rate.z(), 1);
+  M.p = {0, 0, 3};
+  EXPECT_EQ(touch.look(F, M).gap, 3);
+  F.w = {1, 0, 0};
+  touch.look(F, M);
+  F.R = exp_rotation({0.3, 0, 0}).toRotationMatrix();
+  touch.look(F, M);
+  EXPECT_EQ(finder->num_looks, 6);
+  // Another thread looks for itself.
+  std::thread([&] { touch.look(F, M); }).join();
+  EXPECT_EQ(finder->num_looks, 7);
 }
 
 }  // namespace
