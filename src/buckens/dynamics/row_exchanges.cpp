@@ -5,8 +5,11 @@
 namespace buckens::dynamics {
 
 namespace {
-// Up to so many rows a dense matrix is factorised sooner than a sparse one is looked through.
+// Up to so many rows a dense matrix is factorised sooner than a sparse one is looked through; up to
+// more, if most of it is full, as that of one body on many places is.
 constexpr int kMostSmall = 64;
+constexpr int kMostFull = 300;
+constexpr double kFull = 0.3;
 }  // namespace
 
 template <class Take>
@@ -44,16 +47,19 @@ bool MultiplierCondensation::take_small() {
     rows_of_small_.push_back(row);
   }
   const auto count = static_cast<int>(rows_of_small_.size());
-  if (count == rows || count > kMostSmall) return false;
+  if (count == rows || count > kMostFull) return false;
   small_matrix_.setZero(count, count);
   diagonal_of_empty_.setOnes(rows);
+  int num_entries = 0;
   for_entries([&](int row, int column, double value) {
     const int i = place_in_small_[static_cast<std::size_t>(row)];
     const int j = place_in_small_[static_cast<std::size_t>(column)];
-    if (i >= 0 && j >= 0) small_matrix_(i, j) = value;
     if (row == column && i < 0) diagonal_of_empty_[row] = value;
+    if (i < 0 || j < 0) return;
+    small_matrix_(i, j) = value;
+    ++num_entries;
   });
-  return true;
+  return count <= kMostSmall || num_entries > kFull * count * count;
 }
 
 bool MultiplierCondensation::factorise_with_exchanges() {

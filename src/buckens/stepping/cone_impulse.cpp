@@ -9,9 +9,6 @@
 
 namespace buckens::stepping {
 
-using linalg::Matrix;
-using linalg::Vector;
-
 namespace {
 
 constexpr int kMostTries = 200;
@@ -24,9 +21,9 @@ constexpr int kTriesToMiddle = 8;
 class Rubbing {
  public:
   /// @param B answers of the slip, @param none answers up to this are rounding
-  Rubbing(const Matrix& B, double none) {
+  Rubbing(const PlaceMatrix& B, double none) {
     if (B.rows() == 0) return;
-    const Eigen::SelfAdjointEigenSolver<Matrix> modes(B);
+    const Eigen::SelfAdjointEigenSolver<PlaceMatrix> modes(B);
     answers_ = modes.eigenvalues();
     directions_ = modes.eigenvectors();
     for (double& answer : answers_) {
@@ -35,23 +32,23 @@ class Rubbing {
   }
 
   /// The impulse that stops a slip, or the one of the size `most` against what remains of it.
-  Vector against(const Vector& slip, double most) const {
-    const Vector parts = parts_of(slip);
-    if (!(most > 0.0) || !(parts.norm() > 0.0)) return Vector::Zero(slip.size());
-    const Vector stops = impulse(parts, 0.0);
+  PlaceVector against(const PlaceVector& slip, double most) const {
+    const PlaceVector parts = parts_of(slip);
+    if (!(most > 0.0) || !(parts.norm() > 0.0)) return PlaceVector::Zero(slip.size());
+    const PlaceVector stops = impulse(parts, 0.0);
     if (stops.norm() <= most) return directions_ * stops;
-    const Vector slides = impulse(parts, remaining_slip(parts, most));
+    const PlaceVector slides = impulse(parts, remaining_slip(parts, most));
     return directions_ * (slides * (most / slides.norm()));
   }
 
   /// a·B⁻¹ b, without the directions that do not answer.
-  double product(const Vector& a, const Vector& b) const {
+  double product(const PlaceVector& a, const PlaceVector& b) const {
     return -parts_of(a).dot(impulse(parts_of(b), 0.0));
   }
 
  private:
-  Vector parts_of(const Vector& v) const {
-    Vector out = directions_.transpose() * v;
+  PlaceVector parts_of(const PlaceVector& v) const {
+    PlaceVector out = directions_.transpose() * v;
     for (Eigen::Index k = 0; k < out.size(); ++k) {
       if (answers_[k] == HUGE_VAL) out[k] = 0.0;
     }
@@ -59,8 +56,8 @@ class Rubbing {
   }
 
   /// −(B + s)⁻¹ v by modes.
-  Vector impulse(const Vector& parts, double s) const {
-    Vector out(parts.size());
+  PlaceVector impulse(const PlaceVector& parts, double s) const {
+    PlaceVector out(parts.size());
     for (Eigen::Index k = 0; k < parts.size(); ++k) {
       out[k] = parts[k] == 0.0 ? 0.0 : -parts[k] / (answers_[k] + s);
     }
@@ -69,11 +66,11 @@ class Rubbing {
 
   /// Ratio s of the slip that remains to the impulse with |(B + s)⁻¹ v| = `most`: Newton's method
   /// on the inverse of that size, which is nearly linear in s, between bounds.
-  double remaining_slip(const Vector& parts, double most) const {
+  double remaining_slip(const PlaceVector& parts, double most) const {
     double low = 0.0, high = parts.norm() / most;
     double s = 0.0;
     for (int k = 0; k < kMostTries; ++k) {
-      const Vector P = impulse(parts, s);
+      const PlaceVector P = impulse(parts, s);
       const double size = P.norm();
       (size > most ? low : high) = s;
       double slope = 0.0;
@@ -87,8 +84,8 @@ class Rubbing {
     return s;
   }
 
-  Vector answers_;
-  Matrix directions_;
+  PlaceVector answers_;
+  PlaceMatrix directions_;
 };
 
 /// Impulse across at which `rate` becomes positive: regula falsi (Illinois) between bounds.
@@ -127,17 +124,18 @@ double root(const Rate& rate, double at_zero, double first_guess) {
 
 }  // namespace
 
-Vector rub_impulse(const Matrix& B, const Vector& slip, double most, double none) {
+PlaceVector rub_impulse(const PlaceMatrix& B, const PlaceVector& slip, double most, double none) {
   return Rubbing(B, none).against(slip, most);
 }
 
-Vector cone_impulse(const Matrix& B, const Vector& v, double coefficient, double none) {
-  Vector P = Vector::Zero(v.size());
+PlaceVector cone_impulse(const PlaceMatrix& B, const PlaceVector& v, double coefficient,
+                         double none) {
+  PlaceVector P = PlaceVector::Zero(v.size());
   if (v[0] >= 0.0 || B(0, 0) <= none) return P;
   const Eigen::Index n = v.size() - 1;
   const Rubbing rubbing(B.bottomRightCorner(n, n), none);
-  const Vector coupling = B.col(0).tail(n);
-  const Vector slip = v.tail(n);
+  const PlaceVector coupling = B.col(0).tail(n);
+  const PlaceVector slip = v.tail(n);
   const auto press = [&](double across) {
     P[0] = across;
     P.tail(n) = rubbing.against(slip + coupling * across, coefficient * across);
@@ -146,7 +144,7 @@ Vector cone_impulse(const Matrix& B, const Vector& v, double coefficient, double
   const double held = B(0, 0) - rubbing.product(coupling, coupling);
   if (held > none) {
     press((rubbing.product(coupling, slip) - v[0]) / held);
-    const Vector w = B.bottomRows(n) * P + slip;
+    const PlaceVector w = B.bottomRows(n) * P + slip;
     const double stopped = 16.0 * kLastDigits * (v.norm() + (B.cwiseAbs() * P.cwiseAbs()).norm());
     if (P[0] >= 0.0 && w.norm() <= stopped) return P;
   }

@@ -5,6 +5,10 @@
 
 namespace buckens::stepping {
 
+/// Of one place: across, and at most two directions along. Without memory from the heap.
+using PlaceVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
+using PlaceMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+
 /// Impulse of one place where two bodies strike, across the surface and along none to two
 /// directions of it: with w = B P + v, index 0 across,
 ///
@@ -15,12 +19,11 @@ namespace buckens::stepping {
 /// @param B answers of the rates to the impulses, @param v rates without them
 /// @param coefficient μ, @param none answers up to this are rounding: nothing moves that way
 /// @throws StepFailure where B is singular and friction jams
-linalg::Vector cone_impulse(const linalg::Matrix& B, const linalg::Vector& v, double coefficient,
-                            double none);
+PlaceVector cone_impulse(const PlaceMatrix& B, const PlaceVector& v, double coefficient,
+                         double none);
 
 /// Impulse along the surface, at most of the size `most`, that stops a slip or is against what
 /// remains of it. @param B answers of the slip to it, @param slip without it
-linalg::Vector rub_impulse(const linalg::Matrix& B, const linalg::Vector& slip, double most,
-                           double none);
+PlaceVector rub_impulse(const PlaceMatrix& B, const PlaceVector& slip, double most, double none);
 
 }  // namespace buckens::stepping

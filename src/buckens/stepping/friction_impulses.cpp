@@ -37,16 +37,20 @@ class Places {
  public:
   Places(const Matrix& D, const Vector& b, Eigen::Index num_across,
          const std::vector<ImpactSlip>& slips)
-      : D_(D), b_(b), none_(kNoAnswerOfPlace * D.diagonal().maxCoeff()) {
+      : D_(D), sizes_(D.cwiseAbs()), b_(b), none_(kNoAnswerOfPlace * D.diagonal().maxCoeff()) {
     for (Eigen::Index across = 0; across < num_across; ++across) {
-      places_.push_back({{across}, {}, 0.0});
+      places_.push_back({{across}, {}, {}, 0.0});
     }
     for (const ImpactSlip& slip : slips) {
       Place& place = places_[static_cast<std::size_t>(slip.across)];
       place.coefficient = slip.coefficient;
       for (Eigen::Index k = 0; k < slip.count; ++k) place.rows.push_back(slip.first + k);
     }
-    for (Place& place : places_) place.answers = D(place.rows, place.rows);
+    for (Place& place : places_) {
+      const auto along = static_cast<Eigen::Index>(place.rows.size()) - 1;
+      place.answers = D(place.rows, place.rows);
+      place.answers_along = place.answers.bottomRightCorner(along, along);
+    }
   }
 
   std::vector<ConeRows> rows() const {
@@ -91,8 +95,8 @@ class Places {
     Vector last = P;
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
       for (const Place& place : places_) {
-        const Vector own = P(place.rows);
-        const Vector v = rates(place, P) - place.answers * own;
+        const PlaceVector own = P(place.rows);
+        const PlaceVector v = rates(place, P, 0) - place.answers * own;
         P(place.rows) += share * (cone_impulse(place.answers, v, place.coefficient, none_) - own);
       }
       change = (D_ * (P - last)).cwiseAbs().maxCoeff();
@@ -117,7 +121,7 @@ class Places {
         next = &place;
       }
       if (next == nullptr) return true;
-      P(next->rows) += cone_impulse(next->answers, rates(*next, P), next->coefficient, none_);
+      P(next->rows) += cone_impulse(next->answers, rates(*next, P, 0), next->coefficient, none_);
     }
     return false;
   }
@@ -131,11 +135,11 @@ class Places {
       for (const Place& place : places_) {
         const auto n = static_cast<Eigen::Index>(place.rows.size()) - 1;
         if (n == 0) continue;
-        const Matrix B = place.answers.bottomRightCorner(n, n);
-        const std::vector<Eigen::Index> along(place.rows.begin() + 1, place.rows.end());
-        const Vector own = P(along);
-        const Vector v = D_(along, Eigen::all) * P - b_(along) - B * own;
-        P(along) = rub_impulse(B, v, place.coefficient * P[place.rows.front()], none_);
+        PlaceVector own(n);
+        for (Eigen::Index k = 0; k < n; ++k) own[k] = P[place.row(k + 1)];
+        const PlaceVector v = rates(place, P, 1) - place.answers_along * own;
+        own = rub_impulse(place.answers_along, v, place.coefficient * P[place.row(0)], none_);
+        for (Eigen::Index k = 0; k < n; ++k) P[place.row(k + 1)] = own[k];
       }
       change = (D_ * (P - last)).cwiseAbs().maxCoeff();
       size = size_of_rates(P);
@@ -147,17 +151,26 @@ class Places {
 
   struct Place {
     std::vector<Eigen::Index> rows;
-    Matrix answers;
+    PlaceMatrix answers, answers_along;
     double coefficient = 0;
+
+    Eigen::Index row(Eigen::Index k) const { return rows[static_cast<std::size_t>(k)]; }
   };
 
-  Vector rates(const Place& place, const Vector& P) const {
-    return D_(place.rows, Eigen::all) * P - b_(place.rows);
+  /// Of the rows of a place from the given one on.
+  PlaceVector rates(const Place& place, const Vector& P, Eigen::Index first) const {
+    PlaceVector out(static_cast<Eigen::Index>(place.rows.size()) - first);
+    for (Eigen::Index k = 0; k < out.size(); ++k) {
+      const Eigen::Index row = place.row(first + k);
+      out[k] = D_.row(row).dot(P) - b_[row];
+    }
+    return out;
   }
   /// What impulses do to the rates at most.
-  double size_of_rates(const Vector& P) const { return (D_.cwiseAbs() * P.cwiseAbs()).maxCoeff(); }
+  double size_of_rates(const Vector& P) const { return (sizes_ * P.cwiseAbs()).maxCoeff(); }
 
   const Matrix& D_;
+  Matrix sizes_;  // of its entries
   const Vector& b_;
   double none_;
   std::vector<Place> places_;
