@@ -27,7 +27,7 @@ def bad(tmp_path_factory):
     spec = importlib.util.spec_from_file_location("make_bad_parts", PARTS / "make_bad_parts.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    module.PARTS["sieve"] = module.sieve(40, 20)
+    module.PARTS["sieve"] = module.sieve(20, 20)
     return {path.stem: path for path in module.make(tmp_path_factory.mktemp("bad"))}
 
 
@@ -216,12 +216,12 @@ def test_solids_that_share_only_an_edge_are_told(buckens, tmp_path, bad):
 def test_thousands_of_faces_are_read(buckens, bad):
     """With the kernel's own settings the time to read grows with the square of the number of faces, as does that to name
     them by Gmsh's physical groups."""
-    assert bad["sieve"].read_text().count("ADVANCED_FACE") == 4 * 800 + 6
+    assert bad["sieve"].read_text().count("ADVANCED_FACE") == 4 * 400 + 6
     told = info(buckens, bad["sieve"], "--order", "1")
     # Plane faces: the mesh has the volume of the part, whose numbers have some 15 digits.
-    assert told["volume"] == pytest.approx(2e-9 * (9 * 800 - 800), rel=1e-9) and told["pieces"] == 1
+    assert told["volume"] == pytest.approx(2e-9 * (9 * 400 - 400), rel=1e-9) and told["pieces"] == 1
     holes = [face["area"] for face in told["face_sets"].values()]
-    assert len(holes) == 4 * 800 + 6 and sum(abs(area - 2e-6) < 1e-12 for area in holes) == 4 * 800, "each has its name"
+    assert len(holes) == 4 * 400 + 6 and sum(abs(area - 2e-6) < 1e-12 for area in holes) == 4 * 400, "each has its name"
 
 
 def told_on_terminal(program, *arguments):
