@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-#include "buckens/spatial/box_touch.h"
+#include "buckens/spatial/flat_box_touch.h"
 #include "buckens/spatial/last_looks.h"
 #include "buckens/spatial/rim_touch.h"
 
@@ -71,8 +71,8 @@ void RigidTouch::look_anew(const MarkerMotion& F, const MarkerMotion& M, TouchPl
           F, {Vector3d::Zero(), data_.half_length * data_.axis, data_.radius}, M, F.R * data_.pole,
           out);
       break;
-    case Feature::boxes:
-      look_at_boxes(data_.surface, data_.second, data_.direction, F, M, out);
+    case Feature::flat_boxes:
+      look_at_flat_boxes(data_.surface, data_.second, data_.direction, F, M, out);
       break;
     case Feature::found:
       data_.finder->look(F, M, out);

@@ -233,6 +233,87 @@ TEST(PolyhedronTouch, FacesThatLieOnEachOtherTouchUpToTheirBorders) {
   }
 }
 
+/// Places in which a box over another touches it without gap, those at the same place once; axes of
+/// the first.
+std::vector<Vector3d> places(const Vector3d& under, const Vector3d& over, const Vector3d& shift,
+                             double turn) {
+  MarkerMotion F, M;
+  F.R = spatial::exp_rotation({0.3, -0.4, 0.5}).toRotationMatrix();
+  M.p = F.R * shift;
+  M.R = F.R * spatial::exp_rotation({0, 0, turn}).toRotationMatrix();
+  std::vector<Vector3d> out;
+  for (const auto& finder : polyhedron_touches(block_of(under, 1), block_of(over, 1))) {
+    TouchPlace place;
+    finder->look(F, M, place);
+    if (!place.touches || std::abs(place.gap) > 1e-12) continue;
+    EXPECT_NEAR((F.R.transpose() * place.normal - Vector3d::UnitZ()).norm(), 0, 1e-12);
+    const Vector3d at = F.R.transpose() * place.place;
+    EXPECT_NEAR(at.z(), under.z(), 1e-12);
+    const auto is_same = [&](const Vector3d& x) { return (x - at).norm() < 1e-9; };
+    if (std::none_of(out.begin(), out.end(), is_same)) out.push_back(at);
+  }
+  return out;
+}
+
+void expect_rectangle(const std::vector<Vector3d>& found, double from_x, double to_x, double from_y,
+                      double to_y) {
+  for (const double x : {from_x, to_x}) {
+    for (const double y : {from_y, to_y}) {
+      const bool is_there = std::any_of(found.begin(), found.end(), [&](const Vector3d& at) {
+        return std::hypot(at.x() - x, at.y() - y) < 1e-12;
+      });
+      EXPECT_TRUE(is_there) << x << " " << y;
+    }
+  }
+  for (const Vector3d& at : found) {
+    EXPECT_TRUE(at.x() > from_x - 1e-12 && at.x() < to_x + 1e-12) << at.x();
+    EXPECT_TRUE(at.y() > from_y - 1e-12 && at.y() < to_y + 1e-12) << at.y();
+  }
+}
+
+TEST(PolyhedronTouch, BoxesTouchInAllCornersOfTheirArea) {
+  const Vector3d half(0.3, 0.4, 0.2);
+  // In line, a small one on a large one and the other way round, shifted, crosswise.
+  expect_rectangle(places(half, half, {0, 0, 0.4}, 0), -0.3, 0.3, -0.4, 0.4);
+  expect_rectangle(places(half, {0.1, 0.05, 0.2}, {0.1, 0.1, 0.4}, 0), 0, 0.2, 0.05, 0.15);
+  expect_rectangle(places({0.1, 0.05, 0.2}, half, {0.1, 0.1, 0.4}, 0), -0.1, 0.1, -0.05, 0.05);
+  expect_rectangle(places(half, half, {0.4, 0, 0.4}, 0), 0.1, 0.3, -0.4, 0.4);
+  expect_rectangle(places({0.5, 0.1, 0.2}, {0.5, 0.1, 0.2}, {0.1, 0, 0.4}, 0.5 * M_PI), 0, 0.2,
+                   -0.1, 0.1);
+}
+
+TEST(PolyhedronTouch, SquaresAskewTouchInAnOctagon) {
+  const std::vector<Vector3d> found =
+      places({0.3, 0.3, 0.2}, {0.3, 0.3, 0.2}, {0, 0, 0.4}, 0.25 * M_PI);
+  EXPECT_EQ(found.size(), 8U);
+  for (const Vector3d& at : found) {
+    EXPECT_NEAR(std::max(std::abs(at.x()), std::abs(at.y())), 0.3, 1e-12);
+    EXPECT_NEAR(std::abs(at.x()) + std::abs(at.y()), 0.3 * M_SQRT2, 1e-12);
+  }
+}
+
+TEST(PolyhedronTouch, EdgesOfBoxesThatCrossTouchInOnePlace) {
+  // Both on their edges, one along y, the other along x; apart by 0.01.
+  const double reach = 0.2 * M_SQRT2;
+  MarkerMotion F, M;
+  F.R = spatial::exp_rotation({0, 0.25 * M_PI, 0}).toRotationMatrix();
+  M.R = spatial::exp_rotation({0.25 * M_PI, 0, 0}).toRotationMatrix();
+  M.p = {0.1, -0.2, 2 * reach + 0.01};
+  int count = 0;
+  for (const auto& finder :
+       polyhedron_touches(block_of({0.2, 0.5, 0.2}, 1), block_of({0.5, 0.2, 0.2}, 1))) {
+    TouchPlace place;
+    finder->look(F, M, place);
+    if (place.gap > 0.02) continue;
+    ++count;
+    EXPECT_NEAR(place.gap, 0.01, 1e-14);
+    EXPECT_NEAR((place.normal - Vector3d::UnitZ()).norm(), 0, 1e-13);
+    // On either edge or between them.
+    EXPECT_NEAR((place.place - Vector3d(0, -0.2, reach + 0.005)).norm(), 0, 0.005 + 1e-12);
+  }
+  EXPECT_GE(count, 1);
+}
+
 /// Whether a finder goes over to another feature within the differences.
 bool jumps(const spatial::TouchFinder& finder, const PlacedSolids& placed) {
   TouchPlace now, then;

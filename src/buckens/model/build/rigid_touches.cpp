@@ -8,7 +8,6 @@
 #include "buckens/loads/mesh_touch.h"
 #include "buckens/loads/polyhedron_touch.h"
 #include "buckens/loads/shape_distance.h"
-#include "buckens/spatial/box_touch.h"
 #include "buckens/spatial/capsule_touch.h"
 #include "buckens/spatial/cylinder_touch.h"
 
@@ -60,8 +59,8 @@ class TouchList {
   std::vector<RigidTouch> find() {
     if (first_.kind == ShapeKind::capsule && second_.kind == ShapeKind::capsule) {
       add_capsules();
-    } else if (first_.kind == ShapeKind::box && second_.kind == ShapeKind::box) {
-      add_boxes();
+    } else if (first_.kind == ShapeKind::box && second_.kind == ShapeKind::box && out_of_plane_) {
+      add_flat_boxes();
     } else if (second_.kind == ShapeKind::capsule && first_.kind == ShapeKind::box) {
       add_capsule_on_box();
     } else if (second_.kind == ShapeKind::capsule && first_.kind == ShapeKind::cylinder) {
@@ -69,7 +68,7 @@ class TouchList {
     } else if (second_.kind == ShapeKind::cylinder && first_.kind == ShapeKind::plane) {
       add_rim(1.0);
       add_rim(-1.0);
-    } else if (first_.kind == ShapeKind::mesh &&
+    } else if ((first_.kind == ShapeKind::mesh || first_.kind == ShapeKind::box) &&
                (second_.kind == ShapeKind::mesh || second_.kind == ShapeKind::box)) {
       add_found(
           loads::polyhedron_touches(loads::polyhedron_of(first_), loads::polyhedron_of(second_)));
@@ -116,15 +115,12 @@ class TouchList {
     add(data, {Vector3d::Zero()});
   }
 
-  void add_boxes() {
+  void add_flat_boxes() {
     RigidTouch::Data data;
-    data.feature = Feature::boxes;
+    data.feature = Feature::flat_boxes;
     data.surface = loads::touch_surface(first_);
     data.second = loads::touch_surface(second_);
-    const int count = out_of_plane_ ? 2 : spatial::kBoxDirections;
-    for (data.direction = 0; data.direction < count; ++data.direction) {
-      add(data, {Vector3d::Zero()});
-    }
+    for (data.direction = 0; data.direction < 2; ++data.direction) add(data, {Vector3d::Zero()});
   }
 
   void add_capsule_on_box() {

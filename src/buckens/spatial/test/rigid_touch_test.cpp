@@ -4,6 +4,7 @@
 #include "buckens/spatial/rigid_touch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <thread>
@@ -11,13 +12,12 @@
 
 #include <gtest/gtest.h>
 
-#include "buckens/spatial/box_touch.h"
+#include "buckens/spatial/flat_box_touch.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::spatial {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Kind = TouchSurface::Kind;
 
@@ -77,100 +77,52 @@ TEST(TouchSurface, DistancesAreTheSmallest) {
   }
 }
 
-/// Places of two boxes on each other, those at the same place once.
-std::vector<Vector3d> places(const Vector3d& under, const Vector3d& over, const Vector3d& shift,
-                             const Matrix3d& R, double* gap = nullptr) {
+/// Both places of two flat boxes, in the axes of the first.
+std::array<Vector3d, 2> flat_places(const Vector3d& under, const Vector3d& over,
+                                    const Vector3d& shift, double turn, double gap) {
   TouchSurface first = surface(Kind::box), second = first;
   first.half = under;
   second.half = over;
+  first.flat = second.flat = 2;
   MarkerMotion F, M;
-  F.R = exp_rotation({0.3, -0.4, 0.5}).toRotationMatrix();
+  F.R = exp_rotation({0, 0, 0.7}).toRotationMatrix();
   M.p = F.R * shift;
-  M.R = F.R * R;
-  std::vector<Vector3d> out;
-  for (int k = 0; k < kBoxDirections; ++k) {
+  M.R = F.R * exp_rotation({0, 0, turn}).toRotationMatrix();
+  std::array<Vector3d, 2> out;
+  for (int k = 0; k < 2; ++k) {
     TouchPlace place;
-    look_at_boxes(first, second, k, F, M, place);
-    if (gap == nullptr) {
-      EXPECT_NEAR(place.gap, 0, 1e-14);
-      EXPECT_NEAR((F.R.transpose() * place.normal - Vector3d::UnitZ()).norm(), 0, 1e-14);
-    } else {
-      *gap = std::min(*gap, place.gap);
-    }
-    const Vector3d at = F.R.transpose() * place.place;
-    const auto is_same = [&](const Vector3d& x) { return (x - at).norm() < 1e-12; };
-    if (std::none_of(out.begin(), out.end(), is_same)) out.push_back(at);
+    look_at_flat_boxes(first, second, k, F, M, place);
+    EXPECT_NEAR(place.gap, gap, 1e-14);
+    EXPECT_NEAR((F.R.transpose() * place.normal - Vector3d::UnitY()).norm(), 0, 1e-14);
+    out[static_cast<std::size_t>(k)] = F.R.transpose() * place.place;
   }
+  if (out[0].x() < out[1].x()) std::swap(out[0], out[1]);
   return out;
 }
 
-void expect_rectangle(const std::vector<Vector3d>& found, double from_x, double to_x, double from_y,
-                      double to_y) {
-  EXPECT_EQ(found.size(), 4u);
-  for (const double x : {from_x, to_x}) {
-    for (const double y : {from_y, to_y}) {
-      const bool is_there = std::any_of(found.begin(), found.end(), [&](const Vector3d& at) {
-        return (at - Vector3d(x, y, 0.2)).norm() < 1e-12;
-      });
-      EXPECT_TRUE(is_there) << x << " " << y;
-    }
-  }
-}
-
-TEST(BoxTouch, BoxesTouchInAllCornersOfTheirArea) {
-  const Matrix3d even = Matrix3d::Identity();
-  const Vector3d half(0.3, 0.4, 0.2);
-  // In line, a small one on a large one and the other way round, shifted, crosswise.
-  expect_rectangle(places(half, half, {0, 0, 0.4}, even), -0.3, 0.3, -0.4, 0.4);
-  expect_rectangle(places(half, {0.1, 0.05, 0.2}, {0.1, 0.1, 0.4}, even), 0, 0.2, 0.05, 0.15);
-  expect_rectangle(places({0.1, 0.05, 0.2}, half, {0.1, 0.1, 0.4}, even), -0.1, 0.1, -0.05, 0.05);
-  expect_rectangle(places(half, half, {0.4, 0, 0.4}, even), 0.1, 0.3, -0.4, 0.4);
-  const Matrix3d quarter = exp_rotation({0, 0, 0.5 * M_PI}).toRotationMatrix();
-  expect_rectangle(places({0.5, 0.1, 0.2}, {0.5, 0.1, 0.2}, {0.1, 0, 0.4}, quarter), 0, 0.2, -0.1,
-                   0.1);
-}
-
-TEST(BoxTouch, SquaresAskewTouchInAnOctagon) {
-  const Matrix3d eighth = exp_rotation({0, 0, 0.25 * M_PI}).toRotationMatrix();
-  const std::vector<Vector3d> found = places({0.3, 0.3, 0.2}, {0.3, 0.3, 0.2}, {0, 0, 0.4}, eighth);
-  EXPECT_EQ(found.size(), 8u);
-  for (const Vector3d& at : found) {
-    EXPECT_NEAR(std::max(std::abs(at.x()), std::abs(at.y())), 0.3, 1e-12);
-    EXPECT_NEAR(std::abs(at.x()) + std::abs(at.y()), 0.3 * M_SQRT2, 1e-12);
-  }
-}
-
-TEST(BoxTouch, EdgesThatCrossTouchInOnePlace) {
-  // Both on their edges, one along y, the other along x; apart by 0.01.
-  const double reach = 0.2 * M_SQRT2;
-  TouchSurface one = surface(Kind::box);
-  one.half = {0.2, 0.5, 0.2};
-  TouchSurface other = one;
-  other.half = {0.5, 0.2, 0.2};
+TEST(FlatBoxTouch, BoxesTouchAtBothEndsOfTheLineThatTheyShare) {
+  const Vector3d half(0.3, 0.2, 1), small(0.1, 0.2, 1);
+  const auto expect_line = [](const std::array<Vector3d, 2>& found, double from, double to) {
+    EXPECT_NEAR((found[0] - Vector3d(to, 0.2, 0)).norm(), 0, 1e-14);
+    EXPECT_NEAR((found[1] - Vector3d(from, 0.2, 0)).norm(), 0, 1e-14);
+  };
+  expect_line(flat_places(half, half, {0, 0.4, 0}, 0, 0), -0.3, 0.3);
+  expect_line(flat_places(half, half, {0.4, 0.4, 0}, 0, 0), 0.1, 0.3);
+  expect_line(flat_places(half, small, {0.1, 0.4, 0}, 0, 0), 0, 0.2);
+  expect_line(flat_places(small, half, {0.1, 0.4, 0}, 0, 0), -0.1, 0.1);
+  expect_line(flat_places(half, {0.2, 0.1, 1}, {0, 0.4, 0}, 0.5 * M_PI, 0), -0.1, 0.1);
+  // On one corner, which is its lowest point.
+  const double low = 0.1 * std::sin(0.3) + 0.2 * std::cos(0.3);
+  TouchSurface first = surface(Kind::box), second = first;
+  first.flat = second.flat = 2;
+  first.half = half;
+  second.half = small;
   MarkerMotion F, M;
-  F.R = exp_rotation({0, 0.25 * M_PI, 0}).toRotationMatrix();
-  M.R = exp_rotation({0.25 * M_PI, 0, 0}).toRotationMatrix();
-  M.p = {0.1, -0.2, 2 * reach + 0.01};
-  for (int k = 0; k < kBoxDirections; ++k) {
-    TouchPlace place;
-    look_at_boxes(one, other, k, F, M, place);
-    EXPECT_NEAR(place.gap, 0.01, 1e-14);
-    EXPECT_NEAR((place.normal - Vector3d::UnitZ()).norm(), 0, 1e-14);
-    EXPECT_NEAR((place.place - Vector3d(0, -0.2, reach + 0.005)).norm(), 0, 1e-14);
-  }
-}
-
-TEST(BoxTouch, ABoxOnItsCornerTouchesWithIt) {
-  double gap = HUGE_VAL;
-  const Matrix3d R = exp_rotation({0.6, -0.5, 0.2}).toRotationMatrix();
-  double lowest = HUGE_VAL;
-  for (const double x : {-0.1, 0.1}) {
-    for (const double y : {-0.1, 0.1}) {
-      for (const double z : {-0.1, 0.1}) lowest = std::min(lowest, (R * Vector3d(x, y, z)).z());
-    }
-  }
-  places({2, 2, 0.2}, {0.1, 0.1, 0.1}, {0.1, 0.2, 0.2 - lowest + 0.03}, R, &gap);
-  EXPECT_NEAR(gap, 0.03, 1e-14);
+  M.p = {0.05, 0.2 + low + 0.01, 0};
+  M.R = exp_rotation({0, 0, 0.3}).toRotationMatrix();
+  TouchPlace places[2];
+  for (int k = 0; k < 2; ++k) look_at_flat_boxes(first, second, k, F, M, places[k]);
+  EXPECT_NEAR(std::min(places[0].gap, places[1].gap), 0.01, 1e-14);
 }
 
 TEST(RigidTouch, TheLowestPointOfARimIsBelowAllOthers) {
