@@ -40,7 +40,11 @@ Hdf5Recorder::Hdf5Recorder(const std::filesystem::path& path, files::WriteProces
     }
     if (earlier != nullptr) take_earlier(*earlier, fields != nullptr);
     file_.flush();  // SWMR starts from a file that is complete so far
+    table_.close_for_now();
+    fields_.close_for_now();
     file_.start_swmr();
+    table_.open_again(file_);
+    fields_.open_again(file_);
     if (earlier != nullptr) {
       files::sync_to_disk(file_.path());
       if (undo_ != nullptr) undo_->set_aside();  // it belongs to the file that is replaced now

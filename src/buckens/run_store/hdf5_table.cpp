@@ -54,8 +54,9 @@ Hdf5Table::Column Hdf5Table::create_column(const Hdf5File& file, const results::
   H5Pset_chunk(creation.get(), rank, chunk.data());
   const Hdf5Handle link(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(link.get(), 1);
+  column.chunk_values = chunk[0] * column.size;
   const hid_t id = H5Dcreate2(file.id(), column.path.c_str(), type, space.get(), link.get(),
-                              creation.get(), table_settings(chunk[0] * column.size).get());
+                              creation.get(), table_settings(column.chunk_values).get());
   column.dataset = Hdf5Handle(file.check(id, "create " + column.path), H5Dclose);
 
   write_attribute(file, column.path, "unit", channel.unit);
@@ -101,6 +102,23 @@ void Hdf5Table::append(Hdf5File& file, std::span<const double> times,
   file.check(H5Dflush(time_.dataset.get()), "write " + time_.path);
   file.check_written();
   num_records_ += times.size();
+}
+
+void Hdf5Table::close_for_now() {
+  const Hdf5Quiet quiet;
+  for (Column& column : columns_) column.dataset.reset();
+  time_.dataset.reset();
+}
+
+void Hdf5Table::open_again(const Hdf5File& file) {
+  const Hdf5Quiet quiet;
+  const auto open = [&file](Column& column) {
+    const hid_t id =
+        H5Dopen2(file.id(), column.path.c_str(), table_settings(column.chunk_values).get());
+    column.dataset = Hdf5Handle(file.check(id, "open " + column.path), H5Dclose);
+  };
+  if (!time_.path.empty()) open(time_);
+  for (Column& column : columns_) open(column);
 }
 
 void Hdf5Table::close() {

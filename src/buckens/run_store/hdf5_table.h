@@ -31,6 +31,12 @@ class Hdf5Table {
   /// @throws IoError; the file must then be abandoned
   void append(Hdf5File& file, std::span<const double> times, std::span<const double> values);
 
+  /// Closes the data sets until open_again(): HDF5 makes a file readable while it grows in a time
+  /// that increases with the square of what is open.
+  void close_for_now();
+  /// @throws IoError
+  void open_again(const Hdf5File& file);
+
   /// Closes the data sets.
   void close();
   hsize_t num_records() const { return num_records_; }
@@ -39,6 +45,7 @@ class Hdf5Table {
   struct Column {
     Hdf5Handle dataset;
     std::string path;
+    hsize_t chunk_values = 0;
     std::vector<hsize_t> shape;
     std::size_t offset = 0;
     std::size_t size = 1;
