@@ -158,7 +158,7 @@ base::MarkerRef read_marker(const ReadPlace& place, const ReadContext& context) 
   if (slash != std::string::npos && out.marker.empty()) {
     fail(place, fmt::format("\"{}\": the name of a marker is missing after the slash", out.text));
   }
-  if (const model::Found found = model::marker_problem(out, *context.model)) {
+  if (const model::Found found = model::marker_problem(out, *context.model, context.bodies)) {
     fail(place, found->text);
   }
   return out;
@@ -204,7 +204,7 @@ void finish_entry(model::ParameterSpec& parameter, const ReadPlace& place, ReadC
 void finish_entry(body::BodySpec& body, const ReadPlace& place, ReadContext& context) {
   if (const auto* like = std::get_if<body::LikeSpec>(&body.kind)) {
     const auto& bodies = context.model->bodies;
-    const body::BodySpec* other = base::find_named(bodies, like->body);
+    const body::BodySpec* other = context.bodies.find(bodies, like->body);
     if (other == nullptr) {
       fail({*place.node.find("like"), place.path + ".like"},
            fmt::format("unknown body \"{}\" (only bodies listed above this one can be named).{}",

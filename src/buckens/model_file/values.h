@@ -8,6 +8,7 @@
 #include "buckens/base/characteristic.h"
 #include "buckens/base/expression.h"
 #include "buckens/base/field.h"
+#include "buckens/base/name_index.h"
 #include "buckens/base/signal_law.h"
 #include "buckens/base/time_law.h"
 #include "buckens/body/frame_division.h"
@@ -29,6 +30,7 @@ struct ReadContext {
   std::vector<std::string> signals;                ///< names of all, in their order
   std::filesystem::path directory;                 ///< relative file names begin here
   const model::ModelDescription* model = nullptr;  ///< what has been read so far
+  mutable base::NameIndex bodies;                  ///< of its bodies
   StepMeshCache* step_meshes = nullptr;
 };
 

@@ -22,14 +22,14 @@ MarkerId MarkerFinder::marker(const base::MarkerRef& ref, bool needs_mesh) {
     id.X_WF.p = ref.point.value_or(Vector3d::Zero());
     return id;
   }
-  const int whole = model_.find_whole(ref.body);
-  if (whole < 0) {
+  const WholeBody* whole = wholes_.find(model_.wholes, ref.body);
+  if (whole == nullptr) {
     std::vector<std::string> names = {"ground"};
     for (const WholeBody& known : model_.wholes) names.push_back(known.name);
     throw InputError(ref.where, fmt::format("there is no body \"{}\".{}", ref.body,
                                             base::suggestion(ref.body, names)));
   }
-  id.body = body_of(model_.wholes[static_cast<std::size_t>(whole)], ref.marker);
+  id.body = body_of(*whole, ref.marker);
   id.marker = tables_[static_cast<std::size_t>(id.body)]->find(ref, needs_mesh);
   return id;
 }

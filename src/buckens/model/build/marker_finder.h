@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "buckens/base/name_index.h"
 #include "buckens/model/build/marker_table.h"
 #include "buckens/model/model.h"
 
@@ -55,6 +56,7 @@ class MarkerFinder {
   int body_of(const WholeBody& whole, const std::string& marker) const;
 
   Model& model_;
+  base::NameIndex wholes_;  // of those of the model
   const std::vector<std::unique_ptr<MarkerTable>>& tables_;
 };
 

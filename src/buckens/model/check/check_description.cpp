@@ -127,7 +127,7 @@ class Walker {
 
   void look_for(const std::string& path, const base::MarkerRef& marker) {
     if (found || marker.body.empty()) return;  // not given
-    note(path, marker_problem(marker, description_));
+    note(path, marker_problem(marker, description_, bodies_));
     if (found && !marker.where.empty()) where = marker.where;
   }
 
@@ -158,6 +158,7 @@ class Walker {
   }
 
   const ModelDescription& description_;
+  base::NameIndex bodies_;
   bool is_given_ = true;
 };
 

@@ -57,7 +57,8 @@ std::string text_of(const base::MarkerRef& marker) {
   return marker.marker.empty() ? marker.body : marker.body + "/" + marker.marker;
 }
 
-Found marker_problem(const base::MarkerRef& marker, const ModelDescription& model) {
+Found marker_problem(const base::MarkerRef& marker, const ModelDescription& model,
+                     base::NameIndex& bodies) {
   // Places of distributed loads have their own markers, "#load NAME", which trial runs observe
   // (analysis/choose_modes). build_model() knows them and refuses others of this kind.
   if (marker.marker.starts_with('#')) return std::nullopt;
@@ -66,7 +67,7 @@ Found marker_problem(const base::MarkerRef& marker, const ModelDescription& mode
     return Finding{"", fmt::format("\"{}\": the ground has no markers; write {{ground: [x, y, z]}}",
                                    text_of(marker))};
   }
-  const body::BodySpec* body = base::find_named(model.bodies, marker.body);
+  const body::BodySpec* body = bodies.find(model.bodies, marker.body);
   if (body == nullptr) {
     std::vector<std::string> known = names_of(model.bodies);
     known.push_back("ground");

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "buckens/base/marker_ref.h"
+#include "buckens/base/name_index.h"
 #include "buckens/model/check/finding.h"
 #include "buckens/model/spec/model_description.h"
 
@@ -27,7 +28,9 @@ bool is_numbered_node(const body::BodySpec& body, const std::string& name);
 std::string text_of(const base::MarkerRef& marker);
 
 /// Whether the named body or marker does not exist.
-Found marker_problem(const base::MarkerRef& marker, const ModelDescription& model);
+/// @param bodies index of those of the model
+Found marker_problem(const base::MarkerRef& marker, const ModelDescription& model,
+                     base::NameIndex& bodies);
 
 /// Markers and interfaces of a body whose names are already in use, and markers at places that the
 /// body does not have. The mesh must have been read.
