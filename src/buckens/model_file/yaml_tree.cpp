@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/model_file/yaml_tree.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <sstream>
 #include <unordered_map>
@@ -18,9 +19,12 @@ namespace buckens::model_file {
 
 namespace {
 
-// Far above any model written by hand or script; tables of numbers belong into CSV files.
-constexpr std::size_t kLargestText = 8u << 20;
+// A chain of 100 000 links has 26 MB; tables of numbers belong into CSV files.
+constexpr std::size_t kLargestText = 64u << 20;
+// A value takes some 250 bytes of memory. Models, with names, numbers and the space between them,
+// have one for five bytes of their text or more; a text of nothing but commas has no such claim.
 constexpr std::size_t kMostNodes = 500000;
+constexpr std::size_t kBytesPerNode = 4;
 constexpr std::size_t kDeepestTree = 60;
 
 void check_encoding(const std::string& text, const std::string& name) {
@@ -51,7 +55,9 @@ void check_encoding(const std::string& text, const std::string& name) {
 /// Builds the tree from the parser's events.
 class TreeBuilder final : public YAML::EventHandler {
  public:
-  TreeBuilder(const std::string& name, bool single_line) : name_(name), single_line_(single_line) {}
+  /// @param most_nodes keys and values that the text may have
+  TreeBuilder(const std::string& name, bool single_line, std::size_t most_nodes)
+      : name_(name), single_line_(single_line), most_nodes_(most_nodes) {}
 
   YamlNode take() { return std::move(root_); }
 
@@ -110,9 +116,9 @@ class TreeBuilder final : public YAML::EventHandler {
     if (!tag.empty() && tag != "?" && tag != "!") {
       throw InputError(place(mark), fmt::format("the YAML tag {} is not supported", tag));
     }
-    if (++count_ > kMostNodes) {
+    if (++count_ > most_nodes_) {
       throw InputError(place(mark),
-                       fmt::format("more than {} values; move tables to CSV files", kMostNodes));
+                       fmt::format("more than {} values; move tables to CSV files", most_nodes_));
     }
     YamlNode node;
     node.kind = kind;
@@ -179,6 +185,7 @@ class TreeBuilder final : public YAML::EventHandler {
 
   std::string name_;
   bool single_line_;
+  std::size_t most_nodes_;
   YamlNode root_;
   std::vector<Level> stack_;
   std::size_t count_ = 0;
@@ -248,13 +255,14 @@ std::string shortened(const std::string& text) {
 
 YamlNode parse_yaml(const std::string& text, const std::string& name, bool single_line) {
   check_encoding(text, name);
-  TreeBuilder builder(name, single_line);
+  const std::size_t most_nodes = std::max(kMostNodes, text.size() / kBytesPerNode);
+  TreeBuilder builder(name, single_line, most_nodes);
   try {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
     parser.HandleNextDocument(builder);
     YamlNode root = builder.take();
-    TreeBuilder rest(name, single_line);
+    TreeBuilder rest(name, single_line, most_nodes);
     if (parser.HandleNextDocument(rest)) {
       throw InputError(rest.take().where, "a second document begins here; remove the line ---");
     }

@@ -111,6 +111,20 @@ std::string repeated(const std::string& piece, int count) {
   return out;
 }
 
+TEST(YamlTree, HasAValueForFourBytesOfALargeText) {
+  // As a model has them, and as a text has them that is there to fill memory.
+  EXPECT_EQ(parse_yaml("[" + repeated("0.125, ", 600000) + "1]", "long.yaml").items.size(),
+            600001U);
+  try {
+    parse_yaml("[" + repeated("1,", 600000) + "1]", "dense.yaml");
+    FAIL() << "was read";
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    EXPECT_THAT(message, testing::HasSubstr("more than 500000 values")) << message;
+    EXPECT_THAT(message, testing::HasSubstr("CSV")) << message;
+  }
+}
+
 TEST(MalformedModelFile, DeepAndHugeTextsAreRefusedSoon) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_FALSE(is_read(repeated("[", 100000)));
