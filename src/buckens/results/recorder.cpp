@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/results/recorder.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,6 +19,18 @@ using Eigen::Vector3d;
 namespace {
 
 const std::vector<std::string> kXyz = {"x", "y", "z"};
+
+// More bodies and joints than this have rows in two tables, in place of two or three data sets of
+// their own: HDF5 closes a file that others may read in a time that increases with the square of
+// their number, and each takes some 10 kB at least.
+constexpr std::size_t kMostWithOwnChannels = 6000;
+
+/// Whether bodies and joints have rows in two tables.
+bool are_in_tables(const model::Model& model) {
+  return model.wholes.size() + model.joints.size() > kMostWithOwnChannels &&
+         std::none_of(model.bodies.begin(), model.bodies.end(),
+                      [](const body::Body& body) { return body.is_flexible(); });
+}
 
 }  // namespace
 
@@ -77,7 +90,24 @@ void Recorder::add_mesh_channels(const model::WholeBody& whole, const fem::FeMod
                {"axial", "mises"}});
 }
 
-void Recorder::add_channels() {
+void Recorder::add_tables() {
+  // Values stand in the same order as those of data sets for each.
+  const model::Model& model = built_.model;
+  layout_.add({"motions",
+               "m, 1, m/s, rad/s",
+               {static_cast<int>(model.wholes.size()), 13},
+               "of all bodies in the order of the model file: pose, velocity and angular velocity",
+               {"x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz"}});
+  if (model.joints.empty()) return;
+  layout_.add({"reactions",
+               "N, N m",
+               {static_cast<int>(model.joints.size()), 6},
+               "of all joints in the order of the model: force and torque on the second marker, "
+               "world axes",
+               {"Fx", "Fy", "Fz", "Mx", "My", "Mz"}});
+}
+
+void Recorder::add_body_and_joint_channels() {
   const model::Model& model = built_.model;
   for (const model::WholeBody& whole : model.wholes) {
     const std::string path = "bodies/" + whole.name;
@@ -102,6 +132,11 @@ void Recorder::add_channels() {
                  "on the second marker about its origin, world axes",
                  kXyz});
   }
+}
+
+void Recorder::add_channels() {
+  const model::Model& model = built_.model;
+  are_in_tables(model) ? add_tables() : add_body_and_joint_channels();
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const model::Load& load = model.loads[k];
     const int count = load.element->num_values();

@@ -65,6 +65,8 @@ class Recorder {
                       const std::optional<dynamics::Energy>& energy);
   void start(const Observation& now);
   void add_channels();
+  void add_body_and_joint_channels();
+  void add_tables();
   void add_mesh_channels(const model::WholeBody& whole, const fem::FeModel& mesh);
   void append_bodies(const Observation& now, std::vector<double>& values) const;
   void append_joints_and_loads(const Observation& now, std::vector<double>& values) const;

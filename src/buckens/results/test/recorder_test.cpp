@@ -2,6 +2,8 @@
 #include "buckens/results/recorder.h"
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -51,6 +53,48 @@ TEST(Recorder, LaysOutChannelsWithUnits) {
   expect("sensors/energy", "J", {});
   EXPECT_EQ(layout.find("bodies/block/displacement"), -1);
   EXPECT_EQ(layout.find("joints/mount/force"), -1);
+}
+
+/// Points on the ground, the first one on a ball joint.
+Described points(int count) {
+  Described m;
+  for (int k = 0; k < count; ++k) {
+    m.rigid("p" + std::to_string(k), 1, {0, 0, 0}, {1, 1, 1}).at.position = {1.0 * k, 0, 0};
+  }
+  m.joint<joints::SphericalSpec>("ball", "ground", "p0");
+  return m;
+}
+
+TEST(Recorder, PutsManyBodiesIntoOneTable) {
+  constexpr int kMany = 6000;  // and a joint
+  Recorded run(points(kMany));
+  const RecordLayout& layout = run.recorder.layout();
+  EXPECT_EQ(layout.find("bodies/p0/pose"), -1);
+  EXPECT_EQ(layout.find("joints/ball/force"), -1);
+  const int motions = layout.find("motions");
+  ASSERT_GE(motions, 0);
+  EXPECT_EQ(layout.channel(static_cast<std::size_t>(motions)).shape, (std::vector<int>{kMany, 13}));
+
+  constexpr int kOne = 17;
+  run.body(kOne).frame.X_WB = {Vector3d(1, 2, 3), spatial::exp_rotation({0, 0, 0.4})};
+  run.body(kOne).frame.v = {4, 5, 6};
+  run.body(kOne).frame.w = {7, 8, 9};
+  run.state.lambda.tail<3>() = Vector3d(10, 11, 12);
+  run.record();
+  ASSERT_EQ(run.last.values.size(), layout.num_values());
+  const Eigen::VectorXd row = run.values("motions").segment<13>(13 * kOne);
+  EXPECT_EQ(row.head<3>(), Vector3d(1, 2, 3));
+  EXPECT_NEAR(row[3], std::cos(0.2), 1e-15);  // w first
+  EXPECT_EQ(row.segment<3>(7), Vector3d(4, 5, 6));
+  EXPECT_EQ(row.tail<3>(), Vector3d(7, 8, 9));
+  // The joint holds two markers at the origin together: what λ is along the world's axes.
+  EXPECT_NEAR(run.values("reactions").head<3>().norm(), Vector3d(10, 11, 12).norm(), 1e-12);
+}
+
+TEST(Recorder, GivesFewBodiesChannelsOfTheirOwn) {
+  const Recorded run(points(3));
+  EXPECT_GE(run.recorder.layout().find("bodies/p2/pose"), 0);
+  EXPECT_EQ(run.recorder.layout().find("motions"), -1);
 }
 
 TEST(Recorder, RecordsTheState) {
