@@ -29,4 +29,20 @@ double rounding_length(const model::Model& model, const std::vector<BodyMotion>&
   return out;
 }
 
+double shortest_lever(const model::Model& model) {
+  double out = model.length;
+  for (const model::Joint& joint : model.joints) {
+    for (const model::MarkerId* end : {&joint.first, &joint.second}) {
+      if (end->body == model::kGround) continue;
+      const body::Body& body = model.bodies[static_cast<std::size_t>(end->body)];
+      if (body.rotation_basis.cols() == 0) continue;
+      const double z = body.markers[static_cast<std::size_t>(end->marker)].X_BF.p.norm();
+      const double gyration = body.length_scale();
+      // At the mass centre itself a joint turns nothing.
+      if (z > 0.0) out = std::min(out, (gyration * gyration + z * z) / z);
+    }
+  }
+  return out;
+}
+
 }  // namespace buckens::dynamics

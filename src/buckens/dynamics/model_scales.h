@@ -14,4 +14,9 @@ linalg::Vector row_lengths(const model::Model& model);
 double rounding_length(const model::Model& model, const std::vector<spatial::Pose>& X_WB);
 double rounding_length(const model::Model& model, const std::vector<BodyMotion>& motions);
 
+/// The shortest lever with which a joint turns a body, (ρ² + z²)/z with the radius of gyration ρ
+/// and the distance z of the joint from the mass centre [m], at most the model's length. What opens
+/// a joint by a length turns the body by that length over this lever.
+double shortest_lever(const model::Model& model);
+
 }  // namespace buckens::dynamics

@@ -13,7 +13,9 @@ constexpr double kForeseen = 0.01;
 // What rounding of positions leaves open, relative to the model's length, or to the distance from
 // the origin where that is more.
 constexpr double kRounding = 1e-15;
-// A change that no longer falls is rounding if it is below these shares of the same lengths.
+// A change that no longer falls is rounding if it is below this share of the model's length, or of
+// what the rounding of positions may turn: joints close to it only, and a body that is held by a
+// short lever turns far for it. Rows of a matrix make some fifty roundings (2e-16) of one.
 constexpr double kStalled = 1e-11;
 constexpr double kStalledFarAway = 1e-14;
 constexpr double kSlow = 0.3;  // no foresight where the iteration converges slower than this
@@ -31,7 +33,7 @@ bool IterationEnd::is_settled(const Change& change, const Change& before, double
   const double enough = tolerance_ * change.motion;
   if (change.size <= enough + kRounding * rounding_length_) return true;
   if (contraction_ < kSlow && contraction_ * change.size <= kForeseen * enough) return true;
-  double rounding = kStalled * length_ + kStalledFarAway * rounding_length_;
+  double rounding = kStalled * length_ + kStalledFarAway * leverage_ * rounding_length_;
   if (pivots > 0.0 && pivots < kWeaklyHeld) rounding /= std::sqrt(pivots);
   return before.size > 0.0 && change.size > kSlow * before.size && change.size <= rounding;
 }

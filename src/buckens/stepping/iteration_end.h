@@ -19,11 +19,12 @@ class IterationEnd {
     double motion = 0;  ///< largest motion of the step [m]
   };
 
-  /// @param length of the model [m]
-  IterationEnd(const StepSettings& settings, double length)
+  /// @param length of the model [m], @param lever the shortest that turns a body [m]
+  IterationEnd(const StepSettings& settings, double length, double lever)
       : tolerance_(settings.newton_tolerance),
         keeps_rounding_(!settings.iterate_coupling),
         length_(length),
+        leverage_(length / lever),
         rounding_length_(length) {}
 
   /// A step begins. @param rounding_length to which positions are rounded [m]
@@ -43,7 +44,9 @@ class IterationEnd {
  private:
   double tolerance_;
   bool keeps_rounding_;
-  double length_, rounding_length_;
+  double length_;
+  double leverage_;  // change of a body that a position turns by its rounding, over that rounding
+  double rounding_length_;
   double contraction_ = 1;  // of the last two changes in this step
 };
 

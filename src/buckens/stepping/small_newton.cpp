@@ -64,7 +64,7 @@ SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
       rigid_(model),
       cones_(model),
       held_(model),
-      ending_(settings, model.length),
+      ending_(settings, model.length, dynamics::shortest_lever(model)),
       joints_(model),
       rates_only_(dynamics::rate_only_rows(model)),
       reaction_slopes_(model) {
