@@ -5,7 +5,6 @@
 
 namespace buckens::stepping {
 
-using linalg::Matrix;
 using linalg::Vector;
 
 namespace {
@@ -121,15 +120,12 @@ ContactCones::Outcome ContactCones::solve(const Instant& now, double per_force, 
   std::vector<Push>& pushes = out.pressed.pushes;
   for (Push& push : pushes) answers_.answer(push);
   const auto n = static_cast<Eigen::Index>(pushes.size());
-  Matrix D(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) {
-      D(i, j) = PushAnswers::along(pushes[static_cast<std::size_t>(i)].row,
-                                   pushes[static_cast<std::size_t>(j)]);
-    }
-  }
+  std::vector<const Push*> all;
+  for (const Push& push : pushes) all.push_back(&push);
+  linalg::SparseMatrix D = PushAnswers::along_all(all);
   // Gyroscopic terms make it a little unsymmetric, and sweeps over places that hold the same drift.
-  D = 0.5 * (D + D.transpose()).eval();
+  const linalg::SparseMatrix turned = D.transpose();
+  D = 0.5 * (D + turned);
   // Rates in changes of the step's end.
   const Vector P = per_force * Eigen::Map<const Vector>(out.pressed.force.data(), n);
   const Vector b = D * P - Eigen::Map<const Vector>(out.pressed.rate.data(), n) / per_change;

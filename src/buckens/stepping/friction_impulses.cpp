@@ -8,6 +8,7 @@
 #include "buckens/stepping/complementarity.h"
 #include "buckens/stepping/cone_impulse.h"
 #include "buckens/stepping/cone_newton.h"
+#include "buckens/stepping/large_impact.h"
 #include "buckens/stepping/step_failure.h"
 
 namespace buckens::stepping {
@@ -25,12 +26,13 @@ constexpr double kRoundingOfRates = 1e-10;
 // Answers by this share of the largest answer of all.
 constexpr double kNoAnswerOfPlace = 1e-12;
 constexpr int kMostNewtonRounds = 12;
-constexpr int kSweepsBetween = 20;     // place by place, between Newton's
-constexpr int kMostAgreements = 50;    // rounds of across and along
-constexpr int kMostSlipSweeps = 1000;  // over those along, per round
-constexpr int kMostSweeps = 500;       // place by place
-constexpr int kMostHalfSweeps = 2000;  // the same by half of each change
-constexpr int kMostBlows = 10000;      // in turn
+constexpr int kSweepsBetween = 20;        // place by place, between Newton's
+constexpr int kMostAgreements = 50;       // rounds of across and along
+constexpr int kMostSlipSweeps = 1000;     // over those along, per round
+constexpr int kMostSweeps = 500;          // place by place
+constexpr int kMostHalfSweeps = 2000;     // the same by half of each change
+constexpr int kMostBlows = 10000;         // in turn
+constexpr Eigen::Index kMostDense = 150;  // rows; more of them as a sparse system
 
 /// The places that are struck, each with its rows: across, then along.
 class Places {
@@ -207,36 +209,88 @@ Vector solve_together(const Matrix& D, const Vector& b, Eigen::Index num_across,
       "jams; give the contact a `stiffness`, or less `static`");
 }
 
-/// Rows of one-sided rows and their slips that answer each other, group by group.
-std::vector<std::vector<Eigen::Index>> groups_of(const Matrix& D, Eigen::Index num_across,
-                                                 const std::vector<ImpactSlip>& slips) {
-  std::vector<std::vector<Eigen::Index>> rows;  // of each place
-  for (Eigen::Index k = 0; k < num_across; ++k) rows.push_back({k});
+/// Rows of one-sided rows and their slips that answer each other, group by group; ascending.
+class ImpactGroups {
+ public:
+  ImpactGroups(const linalg::SparseMatrix& D, const std::vector<ImpactSlip>& slips)
+      : leaders_(static_cast<std::size_t>(D.rows())) {
+    for (std::size_t k = 0; k < leaders_.size(); ++k) leaders_[k] = static_cast<Eigen::Index>(k);
+    for (const ImpactSlip& slip : slips) {
+      for (Eigen::Index k = 0; k < slip.count; ++k) unite(slip.across, slip.first + k);
+    }
+    for (Eigen::Index j = 0; j < D.outerSize(); ++j) {
+      for (linalg::SparseMatrix::InnerIterator it(D, j); it; ++it) {
+        if (it.value() != 0.0) unite(it.row(), it.col());
+      }
+    }
+    std::vector<int> number(leaders_.size(), -1);
+    for (Eigen::Index row = 0; row < std::ssize(leaders_); ++row) {
+      int& own = number[static_cast<std::size_t>(leader(row))];
+      if (own < 0) {
+        own = static_cast<int>(rows_.size());
+        rows_.emplace_back();
+      }
+      rows_[static_cast<std::size_t>(own)].push_back(row);
+    }
+  }
+
+  const std::vector<std::vector<Eigen::Index>>& rows() const { return rows_; }
+
+ private:
+  Eigen::Index leader(Eigen::Index row) {
+    Eigen::Index& above = leaders_[static_cast<std::size_t>(row)];
+    if (above != row) above = leader(above);
+    return above;
+  }
+  void unite(Eigen::Index a, Eigen::Index b) {
+    leaders_[static_cast<std::size_t>(leader(a))] = leader(b);
+  }
+
+  std::vector<Eigen::Index> leaders_;
+  std::vector<std::vector<Eigen::Index>> rows_;
+};
+
+/// The part of a matrix with these rows and columns, ascending.
+linalg::SparseMatrix part_of(const linalg::SparseMatrix& D, const std::vector<Eigen::Index>& rows) {
+  std::vector<Eigen::Index> place(static_cast<std::size_t>(D.rows()), -1);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    place[static_cast<std::size_t>(rows[k])] = static_cast<Eigen::Index>(k);
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const Eigen::Index j : rows) {
+    for (linalg::SparseMatrix::InnerIterator it(D, j); it; ++it) {
+      const Eigen::Index i = place[static_cast<std::size_t>(it.row())];
+      if (i < 0) continue;
+      entries.emplace_back(static_cast<int>(i),
+                           static_cast<int>(place[static_cast<std::size_t>(j)]), it.value());
+    }
+  }
+  linalg::SparseMatrix out(std::ssize(rows), std::ssize(rows));
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+std::vector<ConeRows> cones_of(Eigen::Index num_across, const std::vector<ImpactSlip>& slips) {
+  std::vector<ConeRows> out;
+  for (Eigen::Index across = 0; across < num_across; ++across) out.push_back({{across}, 0.0});
   for (const ImpactSlip& slip : slips) {
-    for (Eigen::Index k = 0; k < slip.count; ++k) {
-      rows[static_cast<std::size_t>(slip.across)].push_back(slip.first + k);
-    }
+    ConeRows& cone = out[static_cast<std::size_t>(slip.across)];
+    cone.coefficient = slip.coefficient;
+    for (Eigen::Index k = 0; k < slip.count; ++k) cone.rows.push_back(slip.first + k);
   }
-  std::vector<std::vector<Eigen::Index>> groups;
-  for (std::vector<Eigen::Index>& own : rows) {
-    for (std::size_t k = groups.size(); k-- > 0;) {
-      if (D(groups[k], own).isZero(0.0)) continue;
-      own.insert(own.end(), groups[k].begin(), groups[k].end());
-      groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(k));
-    }
-    groups.push_back(std::move(own));
-  }
-  for (std::vector<Eigen::Index>& group : groups) std::sort(group.begin(), group.end());
-  return groups;
+  return out;
 }
 
 }  // namespace
 
-Vector solve_impact(const Matrix& D, const Vector& b, Eigen::Index num_across,
+Vector solve_impact(const linalg::SparseMatrix& D, const Vector& b, Eigen::Index num_across,
                     const std::vector<ImpactSlip>& slips) {
-  if (slips.empty()) return solve_together(D, b, num_across, slips);
+  if (slips.empty() && D.rows() <= kMostDense) {
+    return solve_together(Matrix(D), b, num_across, slips);
+  }
   Vector P(D.rows());
-  for (const std::vector<Eigen::Index>& group : groups_of(D, num_across, slips)) {
+  const ImpactGroups groups(D, slips);
+  for (const std::vector<Eigen::Index>& group : groups.rows()) {
     // Rows keep their order: across, then along.
     const auto place_of = [&](Eigen::Index row) {
       return std::lower_bound(group.begin(), group.end(), row) - group.begin();
@@ -246,9 +300,18 @@ Vector solve_impact(const Matrix& D, const Vector& b, Eigen::Index num_across,
       if (!std::binary_search(group.begin(), group.end(), slip.first)) continue;
       own.push_back({place_of(slip.across), place_of(slip.first), slip.count, slip.coefficient});
     }
-    P(group) = solve_together(D(group, group), b(group), place_of(num_across), own);
+    const linalg::SparseMatrix part = part_of(D, group);
+    const Eigen::Index across = place_of(num_across);
+    P(group) = part.rows() <= kMostDense
+                   ? solve_together(Matrix(part), b(group), across, own)
+                   : solve_large_impact(part, b(group), cones_of(across, own));
   }
   return P;
+}
+
+Vector solve_impact(const Matrix& D, const Vector& b, Eigen::Index num_across,
+                    const std::vector<ImpactSlip>& slips) {
+  return solve_impact(linalg::SparseMatrix(D.sparseView()), b, num_across, slips);
 }
 
 }  // namespace buckens::stepping

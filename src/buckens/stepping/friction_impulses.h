@@ -26,9 +26,13 @@ struct ImpactSlip {
 /// Each set is solved with the impulses of the other one until both agree. Where that has no end,
 /// place by place (stepping/cone_impulse.h); then blow by blow, which keeps the cones and parts the
 /// bodies, but a place may have rubbed before it stuck.
+/// Places that answer each other are solved together, others by themselves; many of them as in
+/// stepping/large_impact.h.
 /// @param D of all rows, positive semidefinite, @param b of slips: minus the speed of slip before
 /// @param num_across number of one-sided rows
 /// @throws StepFailure if they do not come to an agreement: friction that jams
+linalg::Vector solve_impact(const linalg::SparseMatrix& D, const linalg::Vector& b,
+                            Eigen::Index num_across, const std::vector<ImpactSlip>& slips);
 linalg::Vector solve_impact(const linalg::Matrix& D, const linalg::Vector& b,
                             Eigen::Index num_across, const std::vector<ImpactSlip>& slips);
 

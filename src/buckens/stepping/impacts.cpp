@@ -2,7 +2,9 @@
 #include "buckens/stepping/impacts.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -93,6 +95,7 @@ Impacts::Impacts(const model::Model& model, const Scheme& scheme,
     : model_(model),
       scheme_(scheme),
       answers_(std::move(answers)),
+      islands_(model),
       answers_to_(model),
       clearance_(model) {
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
@@ -161,30 +164,42 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
   for (std::size_t k = 0; k < laws_.size(); ++k)
     is_struck = look(k, around, motions, t) || is_struck;
   if (!is_struck) return false;
+  find_islands();
   // What the blow presses together, as a stack on the floor, is hit at the same instant.
-  const double rest = strongest_touch().rest;
   for (Touch& touch : touches_) {
     if (touch.stays || touch.approach > 0.0) continue;
     touch.stays = true;
-    touch.rest = rest;
+    touch.rest = strongest_near(touch).rest;
   }
-  const std::vector<dynamics::BodyMotion> then = at_impact(motions);
+  std::vector<dynamics::BodyMotion> then = at_impact(motions);
+  find_instants();
   condense(then, bodies, rows_in_use, around.memory, t);
-  const double most = std::abs(strongest_touch().rate);
   for (Touch& touch : touches_) {
-    set_row(laws_[touch.law].load, touch.sign, then, around.memory, touch);
-    const double rate = rate_of(touch.row, then);
-    touch.is_elsewhere = std::abs(rate - touch.rate) > kSamePlace * std::max(most, std::abs(rate));
+    const double most = std::abs(strongest_near(touch).rate);
+    at_own_instant(touch, motions, then, [&](const std::vector<dynamics::BodyMotion>& there) {
+      set_row(laws_[touch.law].load, touch.sign, there, around.memory, touch);
+      const double rate = rate_of(touch.row, there);
+      const auto is_other = [&](double known) {
+        return std::abs(rate - known) > kSamePlace * std::max(most, std::abs(rate));
+      };
+      // Round bodies that graze each other have other rates at both instants, in one place.
+      const bool is_met = touch.strikes && !touch.stays && !is_other(-touch.approach);
+      touch.is_elsewhere = is_other(touch.rate) && !is_met;
+    });
     if (touch.is_elsewhere)
       set_row(laws_[touch.law].load, touch.sign, motions, around.memory, touch);
     answers_to_.answer(touch);
   }
   for (std::size_t k = 0; k < touches_.size(); ++k) {
-    add_slips(k, touches_[k].is_elsewhere ? motions : then, around.memory);
+    at_own_instant(touches_[k], motions, then, [&](const auto& there) {
+      add_slips(k, touches_[k].is_elsewhere ? motions : there, around.memory);
+    });
   }
   try {
-    const Vector P = solve();
-    sum_up(P);
+    const linalg::SparseMatrix D = answers();
+    const Vector P = solve(D);
+    move_bodies(P);
+    land(P, D * P);
     clear_ends(P, then, rows_in_use, around.memory, t);
   } catch (const StepFailure& failure) {
     const std::string& name = model_.loads[laws_[touches_.front().law].load].name;
@@ -193,17 +208,17 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
   return true;
 }
 
-Vector Impacts::solve() const {
-  const auto n = static_cast<Eigen::Index>(num_pushes());
-  Matrix D(n, n);
-  Vector b(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto row = static_cast<std::size_t>(i);
-    b[i] = row < touches_.size() ? touches_[row].target : -slips_[row - touches_.size()].speed;
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const Push& other = push(static_cast<std::size_t>(j));
-      D(i, j) = PushAnswers::along(push(row).row, other);
-    }
+linalg::SparseMatrix Impacts::answers() const {
+  std::vector<const Push*> pushes;
+  for (std::size_t k = 0; k < num_pushes(); ++k) pushes.push_back(&push(k));
+  return PushAnswers::along_all(pushes);
+}
+
+Vector Impacts::solve(const linalg::SparseMatrix& D) const {
+  Vector b(static_cast<Eigen::Index>(num_pushes()));
+  for (std::size_t row = 0; row < num_pushes(); ++row) {
+    b[static_cast<Eigen::Index>(row)] =
+        row < touches_.size() ? touches_[row].target : -slips_[row - touches_.size()].speed;
   }
   std::vector<ImpactSlip> slips;
   for (std::size_t k = 0; k < slips_.size(); ++k) {
@@ -261,6 +276,7 @@ bool Impacts::look(std::size_t index, const dynamics::Circumstances& around,
   Touch touch;
   touch.law = index;
   touch.regime = contact.regime;
+  touch.strikes = strikes;
   touch.stays = is_closed;
   touch.rate = sign * sight.coordinate.rate;
   touch.gap = contact.gap;
@@ -280,21 +296,94 @@ bool Impacts::look(std::size_t index, const dynamics::Circumstances& around,
   return strikes;
 }
 
-const Impacts::Touch& Impacts::strongest_touch() const {
-  return *std::max_element(touches_.begin(), touches_.end(),
-                           [](const Touch& a, const Touch& b) { return a.approach < b.approach; });
+std::size_t Impacts::island_of(const Touch& touch) const {
+  const model::Load& load = model_.loads[laws_[touch.law].load];
+  return islands_.of(load.first.body, load.second.body);
+}
+
+void Impacts::find_islands() {
+  islands_.start();
+  for (const Touch& touch : touches_) {
+    const model::Load& load = model_.loads[laws_[touch.law].load];
+    islands_.unite(load.first.body, load.second.body);
+  }
+  std::vector<char> is_struck(jumps_.size(), 0);
+  for (const Touch& touch : touches_) {
+    if (touch.strikes) is_struck[island_of(touch)] = 1;
+  }
+  std::erase_if(touches_, [&](const Touch& touch) { return is_struck[island_of(touch)] == 0; });
+  strongest_.assign(jumps_.size(), touches_.size());
+  for (std::size_t k = 0; k < touches_.size(); ++k) {
+    std::size_t& strongest = strongest_[island_of(touches_[k])];
+    const bool is_first = strongest == touches_.size();
+    if (is_first || touches_[k].approach > touches_[strongest].approach) strongest = k;
+  }
+}
+
+double Impacts::since(const Touch& touch) {
+  const bool is_pressed = touch.stays && touch.lost_share < kPressed;
+  return is_pressed ? 0.0 : touch.is_of_step ? touch.since : touch.rest;
+}
+
+void Impacts::find_instants() {
+  const auto is_free = [&](int body) {
+    return body == model::kGround || is_free_[static_cast<std::size_t>(body)] != 0;
+  };
+  std::map<std::pair<int, int>, const Touch*> strongest;  // by the bodies
+  for (const Touch& touch : touches_) {
+    if (!touch.strikes) continue;
+    const model::Load& load = model_.loads[laws_[touch.law].load];
+    if (!is_free(load.first.body) || !is_free(load.second.body)) continue;
+    const Touch*& known = strongest[std::minmax(load.first.body, load.second.body)];
+    if (known == nullptr || touch.approach > known->approach) known = &touch;
+  }
+  for (Touch& touch : touches_) {
+    const model::Load& load = model_.loads[laws_[touch.law].load];
+    const auto own = strongest.find(std::minmax(load.first.body, load.second.body));
+    touch.from = since(own == strongest.end() ? strongest_near(touch) : *own->second);
+  }
+}
+
+namespace {
+
+/// A motion as it was some time before, with the velocities that it has.
+void go_back(double time, dynamics::BodyMotion& motion) {
+  spatial::Pose& X = motion.frame.X_WB;
+  X.p -= time * motion.frame.v;
+  X.q = (X.q * spatial::exp_rotation(-time * motion.frame.w)).normalized();
+  motion.y -= time * motion.y_dot;
+}
+
+}  // namespace
+
+template <class F>
+void Impacts::at_own_instant(const Touch& touch, const std::vector<dynamics::BodyMotion>& motions,
+                             std::vector<dynamics::BodyMotion>& then, F&& f) {
+  const model::Load& load = model_.loads[laws_[touch.law].load];
+  std::array<dynamics::BodyMotion, 2> kept;
+  const std::array<int, 2> bodies = {load.first.body, load.second.body};
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (bodies[k] == model::kGround) continue;
+    const auto b = static_cast<std::size_t>(bodies[k]);
+    if (jumps_[b].since == touch.from) continue;
+    kept[k] = std::exchange(then[b], motions[b]);
+    go_back(touch.from, then[b]);
+  }
+  f(then);
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (bodies[k] == model::kGround) continue;
+    const auto b = static_cast<std::size_t>(bodies[k]);
+    if (jumps_[b].since != touch.from) then[b] = std::move(kept[k]);
+  }
 }
 
 std::vector<dynamics::BodyMotion> Impacts::at_impact(std::vector<dynamics::BodyMotion> motions) {
-  const Touch& strongest = strongest_touch();
-  const bool is_pressed = strongest.stays && strongest.lost_share < kPressed;
-  since_impulses_ = is_pressed ? 0.0 : strongest.is_of_step ? strongest.since : strongest.rest;
-  const double back = -since_impulses_;
-  for (dynamics::BodyMotion& motion : motions) {
-    spatial::Pose& X = motion.frame.X_WB;
-    X.p += back * motion.frame.v;
-    X.q = (X.q * spatial::exp_rotation(back * motion.frame.w)).normalized();
-    motion.y += back * motion.y_dot;
+  for (std::size_t b = 0; b < motions.size(); ++b) {
+    jumps_[b].since = 0.0;
+    const std::size_t k = strongest_[islands_.of(b)];
+    if (k == touches_.size()) continue;
+    jumps_[b].since = since(touches_[k]);
+    go_back(jumps_[b].since, motions[b]);
   }
   return motions;
 }
@@ -373,18 +462,6 @@ void Impacts::condense(const std::vector<dynamics::BodyMotion>& motions,
                   t));
 }
 
-void Impacts::sum_up(const Vector& P) {
-  move_bodies(P);
-  Vector jump = Vector::Zero(P.size());
-  for (std::size_t i = 0; i < num_pushes(); ++i) {
-    for (std::size_t k = 0; k < num_pushes(); ++k) {
-      jump[static_cast<Eigen::Index>(i)] +=
-          P[static_cast<Eigen::Index>(k)] * PushAnswers::along(push(i).row, push(k));
-    }
-  }
-  land(P, jump);
-}
-
 void Impacts::move_bodies(const Vector& P) {
   for (std::size_t b = 0; b < jumps_.size(); ++b) {
     jumps_[b].velocity.setZero();
@@ -407,13 +484,14 @@ void Impacts::move_bodies(const Vector& P) {
       if (!has_all) rest_ += weight * touch.rest;
     }
     const Push& own = push(k);
-    for (std::size_t b = 0; b < jumps_.size(); ++b) {
-      jumps_[b].velocity += p * own.u[b];
+    for (const PushedBody& moved : own.bodies) {
+      BodyJump& jump = jumps_[moved.body];
+      jump.velocity += p * moved.u;
       // What no joint holds moves on by itself; else joints would open between it and meshes.
-      const bool goes_by_itself = touch.is_of_step && is_free_[b] != 0;
-      jumps_[b].shift += (p * (goes_by_itself ? touch.since : touch.rest)) * own.u[b];
-      jumps_[b].impulse += p * own.load[b];
-      jumps_[b].impulse_time += (p * touch.rest) * own.load[b];
+      const bool goes_by_itself = touch.is_of_step && is_free_[moved.body] != 0;
+      jump.shift += (p * (goes_by_itself ? touch.since : touch.rest)) * moved.u;
+      jump.impulse += p * moved.load;
+      jump.impulse_time += (p * touch.rest) * moved.load;
     }
   }
   if (strength > 0.0) rest_ /= strength;
@@ -424,11 +502,12 @@ void Impacts::clear_ends(const Vector& P, const std::vector<dynamics::BodyMotion
                          double t) {
   Push moved;
   for (std::size_t b = 0; b < jumps_.size(); ++b) {
-    moved.u.push_back(jumps_[b].shift);
-    moved.y.emplace_back(Vector::Zero(jumps_[b].impulse.size()));
-    for (std::size_t k = 0; k < num_pushes(); ++k) {
-      const Touch& touch = touches_[k < touches_.size() ? k : slips_[k - touches_.size()].touch];
-      moved.y[b] += (P[static_cast<Eigen::Index>(k)] * touch.rest) * push(k).y[b];
+    moved.bodies.push_back({b, jumps_[b].shift, Vector::Zero(jumps_[b].impulse.size()), {}});
+  }
+  for (std::size_t k = 0; k < num_pushes(); ++k) {
+    const Touch& touch = touches_[k < touches_.size() ? k : slips_[k - touches_.size()].touch];
+    for (const PushedBody& own : push(k).bodies) {
+      moved.bodies[own.body].y += (P[static_cast<Eigen::Index>(k)] * touch.rest) * own.y;
     }
   }
   std::vector<StopClearance::End> ends;
@@ -439,7 +518,7 @@ void Impacts::clear_ends(const Vector& P, const std::vector<dynamics::BodyMotion
   const auto shifts = clearance_.find(ends, compliance_, then, rows_in_use, memory, t);
   for (std::size_t b = 0; b < shifts.size(); ++b) {
     jumps_[b].shift += shifts[b].frame;
-    jumps_[b].impulse_time += shifts[b].impulse_time;
+    if (shifts[b].impulse_time.size() > 0) jumps_[b].impulse_time += shifts[b].impulse_time;
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "buckens/dynamics/circumstances.h"
 #include "buckens/loads/contact_friction.h"
+#include "buckens/stepping/blow_islands.h"
 #include "buckens/stepping/body_answer.h"
 #include "buckens/stepping/body_step.h"
 #include "buckens/stepping/push_answers.h"
@@ -19,12 +20,14 @@ struct BodyJump {
   Vector6 shift = Vector6::Zero();     ///< of the frame by the rest of the step [rad], [m]
   Eigen::VectorXd impulse;             ///< on interface rows [N s], [N m s]
   Eigen::VectorXd impulse_time;        ///< the same times the rest of the step
+  double since = 0;                    ///< from where impulses act on it to the end of the step [s]
 };
 
 /// Impacts at the end of a smooth step: coordinates that have run into a rigid stop leave it again.
 ///
 /// The instant of an impact is found on the cubic of coordinate and rate over the step. Impulses P
-/// of all stops that are reached act together, and joints take part with their own:
+/// of all stops that are reached act together, and joints take part with their own; blows that
+/// reach no common body are apart, each at its own instant:
 ///
 ///     J M⁻¹Jᵀ P ≥ b,   P ≥ 0,   one of both an equality;   b = (1 + e) times the speed of approach
 ///
@@ -66,8 +69,6 @@ class Impacts {
   int count() const { return count_; }
   /// From their mean instant, weighted by their strength, to the end of the step [s].
   double rest() const { return rest_; }
-  /// From the configuration in which impulses act on bodies to the end of the step [s].
-  double since_impulses() const { return since_impulses_; }
 
  private:
   /// Friction of a law that can strike, along one direction.
@@ -84,15 +85,18 @@ class Impacts {
   };
   /// A stop that is reached.
   struct Touch : Push {
-    std::size_t law;          ///< index into laws_
-    int regime;               ///< of the end that is touched
-    double approach = 0;      ///< speed against it before the impact [m/s] or [rad/s]
-    double met = 0;           ///< rate away from the end to which the jump is added, for the loss
-    double gap = 0;           ///< at the end of the step, without the impact [m] or [rad]
-    double target = 0;        ///< jump of the rate away from the end that it asks for
-    double rest = 0;          ///< what is left of the step after the impact, for positions [s]
-    double since = 0;         ///< what is left of it [s]
-    double lost_share = 1;    ///< of the energy of `approach`, that the impact itself had
+    std::size_t law;        ///< index into laws_
+    int regime;             ///< of the end that is touched
+    double approach = 0;    ///< speed against it before the impact [m/s] or [rad/s]
+    double met = 0;         ///< rate away from the end to which the jump is added, for the loss
+    double gap = 0;         ///< at the end of the step, without the impact [m] or [rad]
+    double target = 0;      ///< jump of the rate away from the end that it asks for
+    double rest = 0;        ///< what is left of the step after the impact, for positions [s]
+    double since = 0;       ///< what is left of it [s]
+    double lost_share = 1;  ///< of the energy of `approach`, that the impact itself had
+    bool strikes = false;   ///< comes in this step, in contrast to what touches already
+    /// From where its row is taken to the end of the step [s].
+    double from = 0;
     bool stays = false;       ///< is not left again
     bool is_of_step = false;  ///< its impulse acts throughout the step, as meshes need it
     /// At the impact its row is that of another place, to which the rate asked for does not belong:
@@ -111,8 +115,23 @@ class Impacts {
 
   bool look(std::size_t law, const dynamics::Circumstances& around,
             const std::vector<dynamics::BodyMotion>& motions, double t);
-  const Touch& strongest_touch() const;
-  /// Where the bodies were at the strongest of the impacts.
+  /// Finds which touches act together, and leaves out what no blow reaches.
+  void find_islands();
+  std::size_t island_of(const Touch& touch) const;
+  const Touch& strongest_near(const Touch& touch) const {
+    return touches_[strongest_[island_of(touch)]];
+  }
+  /// From where impulses of a blow act to the end of the step [s].
+  static double since(const Touch& touch);
+  /// Pairs of bodies that no joint holds have the instant of their own strongest blow, whatever
+  /// else reaches them; others that of their island.
+  void find_instants();
+  /// Calls f with the motions in which a touch has its row. @param then at_impact(), changed and
+  /// restored
+  template <class F>
+  void at_own_instant(const Touch& touch, const std::vector<dynamics::BodyMotion>& motions,
+                      std::vector<dynamics::BodyMotion>& then, F&& f);
+  /// Where the bodies were at the strongest of the impacts that reach them.
   std::vector<dynamics::BodyMotion> at_impact(std::vector<dynamics::BodyMotion> motions);
   void set_row(std::size_t load, double sign, const std::vector<dynamics::BodyMotion>& motions,
                const model::RowMemory* memory, Push& push) const;
@@ -127,7 +146,9 @@ class Impacts {
                                  : slips_[row - touches_.size()];
   }
   std::size_t num_pushes() const { return touches_.size() + slips_.size(); }
-  linalg::Vector solve() const;
+  /// What each push does along the rows of all.
+  linalg::SparseMatrix answers() const;
+  linalg::Vector solve(const linalg::SparseMatrix& D) const;
   void set_approach(Touch& touch, const loads::RigidLaw& law, const loads::CoordinateMotion& start,
                     const loads::CoordinateMotion& end, double sign, double gap) const;
   /// Where a mesh takes part, the impulse of what leaves again belongs to the step as a whole.
@@ -138,7 +159,6 @@ class Impacts {
   void condense(const std::vector<dynamics::BodyMotion>& motions,
                 const std::vector<BodyStep>& bodies, const std::vector<int>& rows_in_use,
                 const model::RowMemory* memory, double t);
-  void sum_up(const linalg::Vector& P);
   void move_bodies(const linalg::Vector& P);
   /// Takes bodies out of ends into which impulses of the step would still let them go.
   void clear_ends(const linalg::Vector& P, const std::vector<dynamics::BodyMotion>& then,
@@ -158,6 +178,8 @@ class Impacts {
   std::vector<dynamics::BodyMotion> start_;  // of the step, where they have
   std::vector<Touch> touches_;
   std::vector<Slip> slips_;
+  BlowIslands islands_;
+  std::vector<std::size_t> strongest_;  // of the touches of each island, by the body it is named by
   std::vector<linalg::Matrix> interface_;  // k₀ N Y K̂⁻¹Nᵀ
   std::vector<char> with_mesh_;            // per body: it is a mesh, or joints connect it with one
   std::vector<char> is_free_;              // per body: no joint moves it
@@ -167,7 +189,7 @@ class Impacts {
   std::vector<BodyJump> jumps_;
   std::vector<Landing> landings_;
   std::vector<ImpactShare> shares_;
-  double loss_ = 0, rest_ = 0, since_impulses_ = 0;
+  double loss_ = 0, rest_ = 0;
   int count_ = 0;
 };
 

@@ -11,12 +11,18 @@
 
 namespace buckens::stepping {
 
+/// What a unit of a push does to one body.
+struct PushedBody {
+  std::size_t body = 0;
+  Vector6 u = Vector6::Zero();  ///< answer of the frame
+  Eigen::VectorXd y;            ///< and of the interface
+  Eigen::VectorXd load;         ///< on interface rows, with what joints add
+};
+
 /// A row along which something pushes, and what a unit of it does.
 struct Push {
   dynamics::SystemRow row;
-  std::vector<Vector6> u;               ///< answers of the frames
-  std::vector<Eigen::VectorXd> y;       ///< and of the interfaces
-  std::vector<Eigen::VectorXd> load{};  ///< on interface rows, with what joints add
+  std::vector<PushedBody> bodies;  ///< that move, ascending
 };
 
 /// What pushes along rows do to bodies and their joints. Springs take no part.
@@ -36,8 +42,14 @@ class PushAnswers {
   void answer(Push& push) const;
   /// What one push does along the row of another.
   static double along(const dynamics::SystemRow& row, const Push& push);
+  /// What each push (column) does along the rows of all: entries where both reach a body.
+  static linalg::SparseMatrix along_all(const std::vector<const Push*>& pushes);
 
  private:
+  void answer_with_joints(Push& push) const;
+  /// What a load does to one body.
+  PushedBody move(std::size_t b, dynamics::BodyResponse load) const;
+
   const model::Model& model_;
   const std::vector<dynamics::BodyCompliance>* compliance_ = nullptr;
   std::optional<dynamics::MultiplierCondensation> joints_;  // empty without rows that hold

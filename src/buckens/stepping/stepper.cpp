@@ -306,7 +306,7 @@ void Stepper::take_impacts(StepReport& report) {
 void Stepper::add_jump(std::size_t b, const BodyJump& jump, dynamics::BodyMotion& motion) {
   model::BodyState& s = next_.bodies[b];
   // Since the impact it has turned with the velocity before it, in place of the one after it.
-  const double rest = impacts_->since_impulses();
+  const double rest = jump.since;
   const Eigen::Quaterniond undone = spatial::exp_rotation(-rest * s.frame.w);
   const Vector3d turned = rest * s.frame.w + jump.shift.head<3>();
   s.frame.w += jump.velocity.head<3>();

@@ -46,12 +46,13 @@ std::vector<StopClearance::Shift> StopClearance::find(
   }
   const linalg::Vector p = solve_complementarity(D, asked);
   std::vector<Shift> out(compliance.size());
-  for (std::size_t b = 0; b < out.size(); ++b) {
-    out[b].impulse_time.setZero(pushes.front().load[b].size());
-    for (std::size_t k = 0; k < pushes.size(); ++k) {
-      const double pushed = p[static_cast<Eigen::Index>(k)];
-      out[b].frame += pushed * pushes[k].u[b];
-      out[b].impulse_time += (kMeshes * pushed) * pushes[k].load[b];
+  for (std::size_t k = 0; k < pushes.size(); ++k) {
+    const double pushed = p[static_cast<Eigen::Index>(k)];
+    for (const PushedBody& moved : pushes[k].bodies) {
+      Shift& shift = out[moved.body];
+      if (shift.impulse_time.size() == 0) shift.impulse_time.setZero(moved.load.size());
+      shift.frame += pushed * moved.u;
+      shift.impulse_time += (kMeshes * pushed) * moved.load;
     }
   }
   return out;

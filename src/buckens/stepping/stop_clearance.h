@@ -19,7 +19,7 @@ class StopClearance {
   /// What it does to one body.
   struct Shift {
     Vector6 frame = Vector6::Zero();  ///< body axes [rad], world axes [m]
-    Eigen::VectorXd impulse_time;     ///< on interface rows, as BodyJump::impulse_time
+    Eigen::VectorXd impulse_time;     ///< on interface rows, as BodyJump::impulse_time; empty: none
   };
   /// One end: its row, away from it, and how far it is left, negative beyond it [m] or [rad].
   struct End {
