@@ -6,6 +6,7 @@
 
 #include "models.h"
 
+#include "buckens/analysis/simulation/simulation.h"
 #include "buckens/base/errors.h"
 #include "buckens/stepping/time_march.h"
 
@@ -88,6 +89,22 @@ void spheres_step(benchmark::State& state, double from) {
                          benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
+/// Whole steps of the program, which finds pairs after each of them.
+void rigid_spheres_step(benchmark::State& state) {
+  const auto built = buckens::model::build_model(
+      buckens::bench::spheres_in_a_box(static_cast<int>(state.range(0)), true));
+  buckens::analysis::Simulation simulation(*built);
+  for (auto _ : state) {
+    try {
+      simulation.step();
+    } catch (const buckens::Error& error) {
+      state.SkipWithError(error.what());
+      break;
+    }
+  }
+  state.counters["near pairs"] = static_cast<double>(simulation.built().model.pair_loads.size());
+}
+
 void falling_spheres_step(benchmark::State& state) { spheres_step(state, 0.0); }
 void heaped_spheres_step(benchmark::State& state) { spheres_step(state, kAtRest); }
 
@@ -104,6 +121,7 @@ BENCHMARK(falling_spheres_step)
     ->Arg(1000)
     ->Iterations(400)
     ->Unit(benchmark::kMicrosecond);
+BENCHMARK(rigid_spheres_step)->Arg(20)->Arg(100)->Iterations(400)->Unit(benchmark::kMicrosecond);
 BENCHMARK(heaped_spheres_step)->Arg(100)->Arg(1000)->Iterations(100)->Unit(benchmark::kMicrosecond);
 
 }  // namespace

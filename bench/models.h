@@ -291,8 +291,9 @@ initial: {bodies: {b0: {velocity: [0.1, 0, 0], angular-velocity: [0, 10, 0]}, b1
 }
 
 /// Steel-like balls of 20 mm in layers of a box of planes, slightly out of line.
-/// @param count 100: layers of 5 × 5; 1000: of 10 × 10
-inline model::ModelDescription spheres_in_a_box(int count) {
+/// @param count up to 300: layers of 5 × 5; more: of 10 × 10
+/// @param are_rigid without a stiffness, in steps of 1 ms
+inline model::ModelDescription spheres_in_a_box(int count, bool are_rigid = false) {
   const int side = count > 300 ? 10 : 5;
   const double pitch = 0.0215;
   const double half = 0.5 * pitch * side;
@@ -310,11 +311,11 @@ loads:
         - {{on: {{ground: [0, {0}, 0]}}, plane: [0, -1, 0]}}
         - {{on: {{ground: [0, -{0}, 0]}}, plane: [0, 1, 0]}}
         - {{bodies: "ball*", sphere: 10 mm}}
-      stiffness: 2e4
-      restitution: 0.4
+{1}      restitution: 0.4
       static: 0.3
-)",
-                                 half);
+{2})",
+                                 half, are_rigid ? "" : "      stiffness: 2e4\n",
+                                 are_rigid ? "simulation: {duration: 100 s, step: 1 ms}\n" : "");
   model::ModelDescription out = model_file::read_model_text(text, "bench.yaml", {});
   const body::BodySpec ball = out.bodies.front();
   out.bodies.clear();

@@ -124,7 +124,6 @@ TWO = ("bodies: {b0: {rigid: {mass: 1 kg, inertia: [1, 1, 1]}, at: {position: [0
 
 
 @pytest.mark.parametrize(("spec", "code", "words"), [
-    ("among: [{bodies: \"b*\", sphere: 0.1}]", 2, ["contacts of many bodies are elastic", "`stiffness` or a `modulus`"]),
     ("among: [{sphere: 0.1}], stiffness: 1e5", 2, ["needs either `on`, a marker, or `bodies`"]),
     ("among: [{on: b0, bodies: b1, sphere: 0.1}], stiffness: 1e5", 2, ["give exactly one of them"]),
     ("among: [{bodies: \"bal*\", sphere: 0.1}], stiffness: 1e5", 2, ["there is no body \"bal*\""]),

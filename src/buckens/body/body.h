@@ -102,7 +102,7 @@ class Body {
   /// Results do not depend on it: what it adds is subtracted again in each iteration.
   Eigen::Matrix3d stand_in = Eigen::Matrix3d::Zero();
   std::vector<Marker> markers;
-  std::unique_ptr<FlexiblePart> flexible;  ///< empty for rigid bodies
+  std::shared_ptr<FlexiblePart> flexible;  ///< empty for rigid bodies; copies of a body share it
 
   bool is_flexible() const { return flexible != nullptr; }
   Eigen::Index num_dofs() const { return flexible ? flexible->num_dofs() : 0; }

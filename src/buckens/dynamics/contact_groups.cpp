@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "buckens/loads/contact_friction.h"
 #include "buckens/loads/near_pairs.h"
 #include "buckens/model/contact_group.h"
 
@@ -22,6 +23,9 @@ constexpr double kStepsAhead = 2.0;
 // Nothing is looked for further away than this many times its size: what moves that far in a step
 // passes through others anyway.
 constexpr double kFarthest = 1.0;
+// Margins within which pairs of rigid groups stay: what goes to and fro does not come anew each
+// time.
+constexpr double kKeeps = 2.0;
 
 /// A near pair at one instant.
 struct PairAt {
@@ -92,8 +96,9 @@ struct MemberBuffers {
   std::vector<std::pair<int, int>> pairs;
 };
 
+/// @param widen factor of all margins
 void find_near_in(const model::Model& model, std::size_t number,
-                  const std::vector<BodyMotion>& motions, double ahead,
+                  const std::vector<BodyMotion>& motions, double ahead, double widen,
                   std::vector<NearPair>& out) {
   const ContactGroup& group = *model.contact_groups[number];
   const std::size_t count = group.members.size();
@@ -112,6 +117,7 @@ void find_near_in(const model::Model& model, std::size_t number,
     margin[k] = ahead == 0.0       ? 0.0
                 : std::isinf(size) ? moves
                                    : kMargin * size + std::min(moves, kFarthest * size);
+    margin[k] *= widen;
     boxes[k] = loads::bounding_box(member.shape, at[k]);
     boxes[k].min().array() -= margin[k];
     boxes[k].max().array() += margin[k];
@@ -127,11 +133,13 @@ void find_near_in(const model::Model& model, std::size_t number,
   }
 }
 
+/// @param rigid of which groups
 void find_near_into(const model::Model& model, const std::vector<BodyMotion>& motions, double ahead,
-                    std::vector<NearPair>& out) {
+                    bool rigid, double widen, std::vector<NearPair>& out) {
   out.clear();
   for (std::size_t k = 0; k < model.contact_groups.size(); ++k) {
-    find_near_in(model, k, motions, ahead, out);
+    if (model.contact_groups[k]->rigid.has_value() != rigid) continue;
+    find_near_in(model, k, motions, ahead, widen, out);
   }
   std::sort(out.begin(), out.end());
 }
@@ -139,7 +147,7 @@ void find_near_into(const model::Model& model, const std::vector<BodyMotion>& mo
 /// Finds pairs and room for their states.
 void find_pairs(const model::Model& model, const std::vector<BodyMotion>& motions, double ahead,
                 const model::RowMemory& before, model::RowMemory& out) {
-  find_near_into(model, motions, ahead, out.near);
+  find_near_into(model, motions, ahead, false, 1.0, out.near);
   std::erase_if(out.near, [&](const NearPair& pair) {
     return before.is_off(model.contact_groups[static_cast<std::size_t>(pair.group)]->load);
   });
@@ -150,7 +158,22 @@ void find_pairs(const model::Model& model, const std::vector<BodyMotion>& motion
 std::vector<NearPair> find_near(const model::Model& model, const std::vector<BodyMotion>& motions,
                                 double ahead) {
   std::vector<NearPair> out;
-  find_near_into(model, motions, ahead, out);
+  find_near_into(model, motions, ahead, false, 1.0, out);
+  return out;
+}
+
+std::vector<NearPair> find_rigid_pairs(const model::Model& model,
+                                       const std::vector<BodyMotion>& motions, double ahead) {
+  std::vector<NearPair> out, wide, kept;
+  find_near_into(model, motions, ahead, true, 1.0, out);
+  find_near_into(model, motions, ahead, true, kKeeps, wide);
+  for (const model::PairLoads& known : model.pair_loads) {
+    const bool stays = std::binary_search(wide.begin(), wide.end(), known.pair) &&
+                       !std::binary_search(out.begin(), out.end(), known.pair);
+    if (stays) kept.push_back(known.pair);
+  }
+  out.insert(out.end(), kept.begin(), kept.end());
+  std::sort(out.begin(), out.end());
   return out;
 }
 
@@ -228,11 +251,45 @@ void advance_near(const model::Model& model, const std::vector<BodyMotion>& moti
   pairs.clear();
 }
 
+namespace {
+
+GroupReading read_rigid_group(const model::Model& model, std::size_t group,
+                              const std::vector<BodyMotion>& motions, double t,
+                              const Circumstances& around) {
+  GroupReading out;
+  for (const model::PairLoads& pair : model.pair_loads) {
+    if (static_cast<std::size_t>(pair.pair.group) != group) continue;
+    if (around.memory != nullptr && around.memory->is_off(pair.first)) continue;
+    const model::Load& any = model.loads[pair.first];
+    const auto first = evaluate_marker(model, any.first, motions).motion;
+    const auto second = evaluate_marker(model, any.second, motions).motion;
+    Eigen::Vector3d friction = Eigen::Vector3d::Zero();
+    bool touches = false;
+    for (std::size_t k = pair.first; k < pair.first + pair.count; ++k) {
+      const auto& law = static_cast<const loads::RigidLaw&>(*model.loads[k].element);
+      const loads::Sight sight = sight_of(model, k, t, around, first, second);
+      const loads::Action action = law.respond(sight);
+      if (dynamic_cast<const loads::ContactFriction*>(&law) != nullptr) {
+        friction += action.on_second.force;
+        continue;
+      }
+      out.normal += std::abs(action.along_coordinate);
+      touches = touches || sight.stand.regime != 0;
+    }
+    out.friction += friction.norm();
+    out.touching += touches ? 1 : 0;
+  }
+  return out;
+}
+
+}  // namespace
+
 GroupReading read_group(const model::Model& model, std::size_t group,
                         const std::vector<BodyMotion>& motions, double t,
                         const Circumstances& around) {
   GroupReading out;
   const ContactGroup* const own = model.contact_groups[group].get();
+  if (own->rigid) return read_rigid_group(model, group, motions, t, around);
   for_near_pairs(model, motions, around.memory, [&](const PairAt& at, const double* states) {
     if (&at.group != own) return;
     const loads::ContactReading one = at.contact.read(at.sight(t, states));

@@ -8,10 +8,15 @@
 
 namespace buckens::dynamics {
 
-/// Members of contact groups that touch or are near each other, ascending.
+/// Members of elastic contact groups that touch or are near each other, ascending.
 /// @param ahead the time over which they are to be found in advance [s]
 std::vector<model::NearPair> find_near(const model::Model& model,
                                        const std::vector<BodyMotion>& motions, double ahead);
+
+/// The same of rigid groups, whose forces are those of loads (model::RigidPairs). Pairs that have
+/// them stay until they are further apart.
+std::vector<model::NearPair> find_rigid_pairs(const model::Model& model,
+                                              const std::vector<BodyMotion>& motions, double ahead);
 
 /// Adds the forces of all near pairs. Without a memory those that touch at the instant.
 void add_group_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,

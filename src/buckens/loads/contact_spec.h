@@ -159,8 +159,8 @@ struct ContactMemberSpec {
 struct ContactsSpec : ContactForceSpec {
   static constexpr const char* kKey = "contacts";
   static constexpr const char* kDoc =
-      "elastic contact among many bodies: whichever of them come near each other are found in "
-      "every step";
+      "contact among many bodies: whichever of them come near each other are found in every step; "
+      "elastic, or rigid with impacts; with friction";
   std::vector<ContactMemberSpec> among;
   std::vector<ContactMemberSpec> against;
   std::optional<double> modulus;  ///< [Pa]
@@ -176,7 +176,7 @@ struct ContactsSpec : ContactForceSpec {
     visit(base::field("against", against,
                       "a second list: then only what is in different lists can touch")
               .like("[{on: ground, plane: [0, 0, 1]}]"));
-    stiffness_fields(visit, "one of the two is needed");
+    stiffness_fields(visit, "without either the contacts are rigid");
     visit(base::field("modulus", modulus,
                       "Young's modulus of all bodies, for the force by Hertz; for spheres and "
                       "planes")
@@ -188,7 +188,7 @@ struct ContactsSpec : ContactForceSpec {
               .within(base::Range::poisson)
               .like("0.3")
               .otherwise("0.3"));
-    loss_fields(visit, "1");
+    loss_fields(visit, "elastic: 1; rigid: 0");
     friction_fields(visit);
   }
 };

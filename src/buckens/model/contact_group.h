@@ -3,6 +3,7 @@
 
 #include <compare>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -20,12 +21,22 @@ struct ContactMember {
   bool is_against = false;  ///< stands in the second list
 };
 
+/// What a model says about rigid contacts, before shapes are known.
+struct RigidPairLaw {
+  double restitution = 0;
+  std::optional<double> threshold;  ///< [m/s]
+  double static_coefficient = 0;
+  double dynamic_coefficient = 0;
+  double stribeck_speed = 0;
+};
+
 /// Many bodies that touch each other by one law.
 struct ContactGroup {
   std::size_t load = 0;  ///< its place in Model::loads
   std::vector<ContactMember> members;
   loads::ElasticContactLaw law;
-  double gravity = 0;  ///< [m/s²]
+  std::optional<RigidPairLaw> rigid;  ///< in place of `law`
+  double gravity = 0;                 ///< [m/s²]
   bool has_two_lists = false;
   /// Bodies that a joint connects, the lower number first; ascending.
   std::vector<std::pair<int, int>> joined;

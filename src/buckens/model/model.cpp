@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "buckens/model/contact_group.h"
 #include "buckens/model/state.h"
 
 namespace buckens::model {
@@ -25,6 +26,12 @@ int Model::num_rigid_rows() const {
 const Load& Model::load_of_rigid_row(int row) const {
   return *std::find_if(loads.begin(), loads.end(),
                        [&](const Load& load) { return load.rigid_row == row; });
+}
+
+bool Model::may_have_rigid_rows() const {
+  return num_rigid_rows() > 0 ||
+         std::any_of(contact_groups.begin(), contact_groups.end(),
+                     [](const auto& group) { return group->rigid.has_value(); });
 }
 
 int Model::num_row_states() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <memory>
 #include <optional>
 #include <string>
@@ -119,7 +120,27 @@ struct Load {
   std::optional<LoadRegion> region;  ///< of distributed loads
 };
 
-/// A checked mechanism: bodies, joints and loads. Never changes after build().
+/// Two members of a contact group that touch, or are near each other.
+struct NearPair {
+  int group = 0;  ///< index into Model::contact_groups
+  int first = 0;  ///< index into ContactGroup::members: the surface
+  int second = 0;
+  auto operator<=>(const NearPair&) const = default;
+};
+
+/// Loads of a pair of a rigid contact group: in each place a stop, then its directions of friction.
+/// Each has a coordinate.
+struct PairLoads {
+  NearPair pair;
+  std::size_t first = 0;     ///< of the loads, index into Model::loads
+  std::size_t count = 0;     ///< of them, and of their coordinates
+  int first_coordinate = 0;  ///< index into Model::coordinates
+  int first_state = 0;       ///< of all of them in RowMemory::laws
+  int num_states = 0;
+};
+
+/// A checked mechanism: bodies, joints and loads. After build() nothing changes but pair_loads and
+/// what belongs to them, in the copy that a simulation has of a model with rigid contact groups.
 struct Model {
   std::string title;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²] world
@@ -132,6 +153,9 @@ struct Model {
   std::vector<Coordinate> coordinates;
   /// Of loads that are contacts among many bodies; see model/contact_group.h.
   std::vector<std::shared_ptr<const ContactGroup>> contact_groups;
+  /// Of pairs in rigid groups that are near each other now, ascending: the last of the loads and
+  /// coordinates (model/build/rigid_pairs.h).
+  std::vector<PairLoads> pair_loads;
   SignalSet signals;
   std::vector<Drive> drives;
   /// Origin of the world of this model in that of the model file [m]: zero unless the mechanism is
@@ -146,6 +170,8 @@ struct Model {
   int num_law_states() const;
   int num_rigid_rows() const;
   const Load& load_of_rigid_row(int row) const;
+  /// Whether there are rigid rows, or may be when bodies come near each other.
+  bool may_have_rigid_rows() const;
   int num_row_states() const;
   /// Joint and row within it that own a row of λ.
   std::pair<const Joint*, int> owner_of_row(int row) const;

@@ -89,9 +89,8 @@ void visit_switches(const base::SaveVisit& visit, const std::string& name, std::
 }
 
 /// @throws InputError unless the pairs are in order and each can be one
-void require_pairs(const base::SaveVisit& visit, const Model& model,
-                   const std::vector<NearPair>& near, Eigen::Index num_states) {
-  Eigen::Index needed = 0;
+void require_pairs(const base::SaveVisit& visit, const Model& model, bool are_rigid,
+                   const std::vector<NearPair>& near) {
   const NearPair* before = nullptr;
   for (const NearPair& pair : near) {
     if (before != nullptr && !(*before < pair)) visit.refuse("near", "its pairs are not in order");
@@ -99,38 +98,38 @@ void require_pairs(const base::SaveVisit& visit, const Model& model,
     const ContactGroup& group = *model.contact_groups[static_cast<std::size_t>(pair.group)];
     const auto first = static_cast<std::size_t>(pair.first);
     const auto second = static_cast<std::size_t>(pair.second);
-    if (std::max(first, second) >= group.members.size() || !group.can_touch(first, second) ||
-        group.ordered(first, second).first != first) {
+    if (group.rigid.has_value() != are_rigid || std::max(first, second) >= group.members.size() ||
+        !group.can_touch(first, second) || group.ordered(first, second).first != first) {
       visit.refuse("near", "two bodies in it cannot touch");
     }
-    needed += group.contact(first, second).num_states();
   }
-  if (needed == num_states) return;
-  visit.refuse("near_states", fmt::format("it has {} values, its pairs {}", num_states, needed));
+}
+
+/// States of elastic pairs.
+Eigen::Index count_states(const Model& model, const std::vector<NearPair>& near) {
+  Eigen::Index needed = 0;
+  for (const NearPair& pair : near) {
+    needed +=
+        model.contact_groups[static_cast<std::size_t>(pair.group)]
+            ->contact(static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.second))
+            .num_states();
+  }
+  return needed;
 }
 
 void visit_near(const base::SaveVisit& visit, const Model& model, RowMemory& memory) {
   if (model.contact_groups.empty()) return;
-  std::vector<int> numbers;
-  for (const NearPair& pair : memory.near) {
-    numbers.insert(numbers.end(), {pair.group, pair.first, pair.second});
-  }
-  visit.counts("near", numbers, 0, kMostMembers);
+  visit_pairs(visit, model, false, memory.near);
   std::vector<double> states(memory.near_states.begin(), memory.near_states.end());
   visit.any_numbers("near_states", states);
   visit.number("near_time", memory.near_time);
   if (!visit.is_restoring()) return;
-  if (numbers.size() % 3 != 0) visit.refuse("near", "it is not a list of pairs");
-  memory.near.clear();
-  for (std::size_t k = 0; k + 2 < numbers.size(); k += 3) {
-    if (static_cast<std::size_t>(numbers[k]) >= model.contact_groups.size()) {
-      visit.refuse("near", "there is no such group");
-    }
-    memory.near.push_back({numbers[k], numbers[k + 1], numbers[k + 2]});
-  }
   memory.near_states =
       Eigen::Map<const linalg::Vector>(states.data(), static_cast<Eigen::Index>(states.size()));
-  require_pairs(visit, model, memory.near, memory.near_states.size());
+  const Eigen::Index needed = count_states(model, memory.near);
+  if (needed == memory.near_states.size()) return;
+  visit.refuse("near_states",
+               fmt::format("it has {} values, its pairs {}", memory.near_states.size(), needed));
 }
 
 void visit_memory(const base::SaveVisit& visit, const Model& model, RowMemory& memory) {
@@ -157,6 +156,25 @@ void visit_memory(const base::SaveVisit& visit, const Model& model, RowMemory& m
 }
 
 }  // namespace
+
+void visit_pairs(const base::SaveVisit& visit, const Model& model, bool are_rigid,
+                 std::vector<NearPair>& near) {
+  std::vector<int> numbers;
+  for (const NearPair& pair : near) {
+    numbers.insert(numbers.end(), {pair.group, pair.first, pair.second});
+  }
+  visit.counts("near", numbers, 0, kMostMembers);
+  if (!visit.is_restoring()) return;
+  if (numbers.size() % 3 != 0) visit.refuse("near", "it is not a list of pairs");
+  near.clear();
+  for (std::size_t k = 0; k + 2 < numbers.size(); k += 3) {
+    if (static_cast<std::size_t>(numbers[k]) >= model.contact_groups.size()) {
+      visit.refuse("near", "there is no such group");
+    }
+    near.push_back({numbers[k], numbers[k + 1], numbers[k + 2]});
+  }
+  require_pairs(visit, model, are_rigid, near);
+}
 
 void visit_saved(const base::SaveVisit& visit, body::CouplingTerms& terms) {
   visit.flag("quad_ref", terms.quad_ref);

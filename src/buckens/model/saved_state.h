@@ -13,4 +13,8 @@ void visit_saved(const base::SaveVisit& visit, const Model& model, State& state)
 /// The terms of the inertial coupling that a body keeps.
 void visit_saved(const base::SaveVisit& visit, body::CouplingTerms& terms);
 
+/// The same for a list of pairs in contact groups. @param are_rigid of which groups
+void visit_pairs(const base::SaveVisit& visit, const Model& model, bool are_rigid,
+                 std::vector<NearPair>& near);
+
 }  // namespace buckens::model

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <compare>
 #include <optional>
 #include <vector>
 
@@ -30,14 +29,6 @@ struct BodyState {
   linalg::Vector d, d_dot, d_ddot, d_alg;                ///< nodal variables, n each, body axes
   body::CouplingTerms terms;                             ///< kept by this body at present
   Coupling coupling, coupling_before, coupling_earlier;  ///< at this and the two previous steps
-};
-
-/// Two members of a contact group that touch, or are near each other.
-struct NearPair {
-  int group = 0;  ///< index into Model::contact_groups
-  int first = 0;  ///< index into ContactGroup::members: the surface
-  int second = 0;
-  auto operator<=>(const NearPair&) const = default;
 };
 
 /// Memory of rows and force laws: part of the state because the next step depends on it.

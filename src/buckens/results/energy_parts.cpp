@@ -81,6 +81,11 @@ EnergyParts::EnergyParts(const model::Model& model) {
   locks_ = add(Kind::impacts, "");
 }
 
+void EnergyParts::follow_pairs(const model::Model& model) {
+  loads_.clear();
+  for (const model::Load& load : model.loads) loads_.push_back(add_load(model, load));
+}
+
 EnergyParts::OfLoad EnergyParts::add_load(const model::Model& model, const model::Load& load) {
   const int joint = load.joint >= 0 ? load.joint
                     : load.coordinate >= 0

@@ -27,6 +27,10 @@ class EnergyParts {
  public:
   explicit EnergyParts(const model::Model& model);
 
+  /// To be called when Model::pair_loads have changed. Their parts are those of their group, which
+  /// are there already.
+  void follow_pairs(const model::Model& model);
+
   std::size_t size() const { return all_.size(); }
   const EnergyPart& operator[](std::size_t k) const { return all_[k]; }
 

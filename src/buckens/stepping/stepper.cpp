@@ -75,9 +75,8 @@ Stepper::Stepper(const model::Model& model, const StepSettings& settings,
       settings_(settings),
       scheme_(settings.method, settings.step, settings.method_parameter()),
       forecast_(scheme_, model.length),
-      forecasts_(RigidRows(model).empty()),
+      forecasts_(!model.may_have_rigid_rows()),
       bodies_(model.bodies.size()) {
-  std::vector<const BodyAnswer*> views;
   for (const body::Body& body : model.bodies) {
     auto op = factorised(body, scheme_, operators_, settings_);
     has_own_operator_.push_back(
@@ -85,17 +84,40 @@ Stepper::Stepper(const model::Model& model, const StepSettings& settings,
     operators_.push_back(std::move(op));
     flexible_.push_back(
         body.is_flexible() ? std::make_unique<FlexibleStep>(body, *operators_.back()) : nullptr);
-    views.push_back(operators_.back().get());
   }
-  impacts_ = std::make_unique<Impacts>(model, scheme_, views);
-  newton_ = std::make_unique<SmallNewton>(model, scheme_, settings_, std::move(views),
-                                          std::move(rows_in_use));
+  make_iteration(std::move(rows_in_use));
   StrandMechanism::Operators small;
   for (const auto& op : operators_) small.push_back(op.get());
   strand_ = StrandStep::make(model, settings_, scheme_, small);
   gaps_.resize(bodies_.size());
   use_threads(settings_.threads);
   group_factors();
+}
+
+void Stepper::make_iteration(std::vector<int> rows_in_use) {
+  std::vector<const BodyAnswer*> views;
+  for (const auto& op : operators_) views.push_back(op.get());
+  impacts_ = std::make_unique<Impacts>(model_, scheme_, views);
+  newton_ = std::make_unique<SmallNewton>(model_, scheme_, settings_, std::move(views),
+                                          std::move(rows_in_use));
+  pairs_.clear();
+  for (const model::PairLoads& loads : model_.pair_loads) pairs_.push_back(loads.pair);
+}
+
+void Stepper::follow_pairs() {
+  const bool are_same =
+      std::equal(pairs_.begin(), pairs_.end(), model_.pair_loads.begin(), model_.pair_loads.end(),
+                 [](const model::NearPair& own, const auto& loads) { return own == loads.pair; });
+  if (are_same) return;
+  base::SavedValues saved;
+  newton_->visit_saved(base::SaveVisit::saving(saved));
+  make_iteration(newton_->rows_in_use());
+  newton_->visit_saved(base::SaveVisit::restoring(saved));
+}
+
+void Stepper::accept_last_stands(bool accepts) {
+  follow_pairs();
+  newton_->accept_last_stands(accepts);
 }
 
 void Stepper::use_threads(int threads) {
@@ -381,6 +403,7 @@ StepReport Stepper::step(const model::State& before, model::State& after) {
 StepReport Stepper::take_step(const model::State& state, model::State& end) {
   StepReport report;
   recall_solves(state);
+  follow_pairs();
   if (!take_strand_step(state, report)) report = take_general_step(state);
   stepped_to_ = next_.t;
   finish_lesson(next_);

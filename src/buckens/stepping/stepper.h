@@ -63,7 +63,7 @@ class Stepper {
   StepReport step(const model::State& before, model::State& after);
 
   /// For the following steps, see SmallNewton::accept_last_stands().
-  void accept_last_stands(bool accepts) { newton_->accept_last_stands(accepts); }
+  void accept_last_stands(bool accepts);
 
   /// Threads for the following steps, ≥ 1.
   void use_threads(int threads);
@@ -108,6 +108,10 @@ class Stepper {
   /// How the large solves of a round were answered.
   enum class Answers { none_asked, all_recycled, solved };
   StepReport take_step(const model::State& state, model::State& end);
+  /// Makes what follows from the loads: again where pairs came near or went away, continuing from
+  /// what was saved of it.
+  void make_iteration(std::vector<int> rows_in_use);
+  void follow_pairs();
   StepReport take_general_step(const model::State& state);
   /// @return false if the general route has to take this step
   bool take_strand_step(const model::State& state, StepReport& report);
@@ -138,6 +142,7 @@ class Stepper {
   std::vector<std::shared_ptr<BodyStepOperator>> operators_;  // equal small bodies have one
   std::vector<char> has_own_operator_;                        // not that of a body before
   std::unique_ptr<SmallNewton> newton_;
+  std::vector<model::NearPair> pairs_;  // that newton_ and impacts_ were made for
   Forecast forecast_;
   bool forecasts_;  // no rows that come and go, which a forecast does not know
   std::unique_ptr<Impacts> impacts_;

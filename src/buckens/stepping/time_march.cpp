@@ -37,7 +37,7 @@ TimeMarch::TimeMarch(const model::Model& model, StepSettings settings, std::vect
       ladder_(model, with_longest_step(std::move(settings), march), std::move(rows_in_use)),
       model_(model),
       end_(march.longest_steps * kTicks),
-      has_rigid_rows_(model.num_rigid_rows() > 0),
+      has_rigid_rows_(model.may_have_rigid_rows()),
       accepted_(kShortestRung + 1, 0) {
   if (march.tolerance) error_.emplace(model, *march.tolerance);
 }

@@ -18,6 +18,7 @@
 #include "buckens/analysis/statics/equilibrium.h"
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/constraints.h"
+#include "buckens/dynamics/contact_groups.h"
 #include "buckens/dynamics/row_memory.h"
 #include "buckens/dynamics/signals.h"
 #include "buckens/dynamics/travel.h"
@@ -175,7 +176,8 @@ void choose_rows(const model::Model& model, const dynamics::MassMetric& metric, 
 
 }  // namespace
 
-Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& metric) {
+Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& metric,
+                 model::RigidPairs* pairs) {
   const model::Model& model = built.model;
   const model::InitialSpec& initial = built.description.initial;
   Prepared out;
@@ -221,8 +223,9 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
   for (std::string& text : describe_velocity_changes(built, given, out.state)) {
     out.notes.push_back(std::move(text));
   }
-  refuse_beyond_stops(model, out.state);
   const auto motions = dynamics::motions_of(model, out.state);
+  if (pairs != nullptr) pairs->set(dynamics::find_rigid_pairs(model, motions, HUGE_VAL));
+  refuse_beyond_stops(model, out.state);
   out.state.memory = memory_at_start(built, motions);
   if (is_at_rest) keep_wound(model, motions, out.state);
   close_rows(model, at_rest, motions, out.state.memory);

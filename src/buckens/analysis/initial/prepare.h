@@ -7,6 +7,7 @@
 #include "buckens/analysis/initial/assembly_moves.h"
 #include "buckens/dynamics/mass_metric.h"
 #include "buckens/model/build/build_model.h"
+#include "buckens/model/build/rigid_pairs.h"
 #include "buckens/model/state.h"
 
 namespace buckens::analysis {
@@ -28,6 +29,9 @@ struct Prepared {
 /// and computes accelerations at t = 0.
 /// @throws ModelError naming the joint that cannot be closed or the body that is not held, or if
 /// strict assembly would move a body
-Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& metric);
+/// @param pairs of this model, to be given loads of those that are near each other at the start;
+///        null: rigid contact groups are left out
+Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& metric,
+                 model::RigidPairs* pairs = nullptr);
 
 }  // namespace buckens::analysis

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -72,6 +73,8 @@ class SimulationRun {
   void check_samples() const;
   void begin_march(double start);
   void set_up();
+  /// Finds the pairs in rigid contact groups that are near each other in the next step.
+  void find_pairs();
   void note_solvers();
   void warn(const std::string& text);
   void advise_on_step();
@@ -91,7 +94,10 @@ class SimulationRun {
   void visit_saved(const base::SaveVisit& visit);
   std::vector<std::string> identity() const;
 
+  std::unique_ptr<model::BuiltModel>
+      own_;  // of models with rigid contact groups, whose loads change
   const model::BuiltModel& built_;
+  std::optional<model::RigidPairs> pairs_;  // of own_
   SimulationOptions options_;
   const model::SimulationSpec& spec_;
   Clock::time_point created_ = Clock::now();

@@ -40,7 +40,7 @@ void WorkAccount::visit_saved(const base::SaveVisit& visit) {
   visit.number("active", before_.active);
   visit.number("damping", before_.damping);
   visit.vector("g_t", before_.g_t, before_.g_t.size());
-  if (model_.num_rigid_rows() > 0) visit.vector("laws", laws_before_, laws_before_.size());
+  if (model_.may_have_rigid_rows()) visit.vector("laws", laws_before_, laws_before_.size());
   visit.number("t", t_);
   visit.vector("lambda_before", lambda_before_, rows);
   visit.vector("lambda_start", lambda_start_, rows);

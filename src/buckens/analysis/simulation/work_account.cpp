@@ -94,6 +94,12 @@ void WorkAccount::take_inputs(const model::State& state) {
   laws_before_ = state.memory.laws;
 }
 
+void WorkAccount::follow_pairs(const model::State& state) {
+  parts_.follow_pairs(model_);
+  forces_.account(model_);
+  take_inputs(state);
+}
+
 double WorkAccount::landed(const model::State& state) {
   double sum = 0;
   const auto motions = dynamics::motions_of(model_, state);
@@ -225,7 +231,7 @@ void WorkAccount::add_step(const model::State& state, const Powers& loads,
   turnover_ += h * std::abs(active) + dissipated;
   std::swap(before_, now_);
   std::swap(loads_before_, forces_.of_loads);
-  if (model_.num_rigid_rows() > 0) laws_before_ = state.memory.laws;
+  if (model_.may_have_rigid_rows()) laws_before_ = state.memory.laws;
   lambda_before_ = state.lambda;
   lambda_start_ = lambda;
   lambda_time_ = state.lambda_time;

@@ -43,6 +43,10 @@ class WorkAccount {
   /// To be called when signals of the last state have jumped.
   void take_jump(const model::State& state) { add_shares(parameters_.of_jump(state)); }
 
+  /// To be called when pairs came near or went away: the loads of the model and what the last state
+  /// remembers of them have changed.
+  void follow_pairs(const model::State& state);
+
   /// To be called when inputs of the last state were changed: the next step starts with them.
   void take_inputs(const model::State& state);
 

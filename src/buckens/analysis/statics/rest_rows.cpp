@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "buckens/base/errors.h"
 #include "buckens/dynamics/travel.h"
 #include "buckens/loads/ball_friction.h"
 #include "buckens/loads/contact.h"
@@ -56,6 +57,17 @@ bool rubs(const loads::ForceElement& element) {
          dynamic_cast<const loads::CoordinateBrake*>(&element) != nullptr;
 }
 
+void refuse_rigid_groups(const model::Model& model) {
+  for (const auto& group : model.contact_groups) {
+    if (!group->rigid) continue;
+    throw ModelError(
+        fmt::format("load \"{}\": equilibria and small vibrations with rigid `contacts` of many "
+                    "bodies are not known; give it a `stiffness` or a `modulus`, name the pairs "
+                    "one by one as `contact`, or run a simulation until all is at rest",
+                    model.loads[group->load].name));
+  }
+}
+
 dynamics::SystemRow rest_row_of(const model::Model& model, const model::Load& load,
                                 const dynamics::LoadEnds& ends, const spatial::PairRow& J) {
   if (!ends.travel) {
@@ -72,6 +84,7 @@ dynamics::SystemRow rest_row_of(const model::Model& model, const model::Load& lo
 RestRows::RestRows(const model::Model& model, model::RestFriction friction,
                    const model::State& state)
     : model_(model) {
+  refuse_rigid_groups(model);
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const model::Load& load = model.loads[k];
     if (state.memory.is_off(k)) continue;

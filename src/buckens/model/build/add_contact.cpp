@@ -9,13 +9,10 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/joints/contact_way.h"
 #include "buckens/loads/contact.h"
-#include "buckens/loads/contact_friction.h"
-#include "buckens/loads/contact_stop.h"
 #include "buckens/loads/elastic_contact.h"
-#include "buckens/loads/rigid_law.h"
 #include "buckens/model/build/contact_shapes.h"
+#include "buckens/model/build/rigid_contact_rows.h"
 #include "buckens/model/build/rigid_touches.h"
 
 namespace buckens::model {
@@ -32,8 +29,6 @@ constexpr double kNoRotaryInertia = 1e-12;
 constexpr double kTouchingPlace = 1e-9;
 // Overlap as placed that needs no exact places, as a share of the smaller shape.
 constexpr double kDeepInside = 0.1;
-// Slip whose direction says nothing, in sizes of the smaller shape per second.
-constexpr double kNoSlip = 1e-9;
 
 class ContactBuilder {
  public:
@@ -147,13 +142,7 @@ class ContactBuilder {
   double gap_of_touches(const loads::ContactPair& pair, const joints::Placement& placed) const {
     const double by_spots = gap_of_spots(pair, placed);
     if (by_spots < -kDeepInside * size_) return by_spots;
-    spatial::MarkerMotion F, M;
-    M.p = placed.r_F;
-    M.R = placed.R_WF.transpose() * placed.R_WM;
-    double gap = HUGE_VAL;
-    for (const spatial::RigidTouch& touch : touches(pair))
-      gap = std::min(gap, touch.look(F, M).gap);
-    return gap;
+    return least_gap(touches(pair), placed);
   }
 
   double reduced_mass() const {
@@ -165,20 +154,12 @@ class ContactBuilder {
     return 1.0 / inverse;
   }
 
-  double rigid_threshold() const { return loads::RigidStop::kAtRest * size_; }
-
   void set_elastic(const loads::ContactPair& pair) {
     loads::ElasticContactLaw law = loads::elastic_law(spec_);
     law.modulus = spec_.modulus;
     if (spec_.poisson) law.poisson = *spec_.poisson;
     load_.element = std::make_shared<loads::Contact>(
         pair, loads::contact_data(law, pair, reduced_mass(), find_.model().gravity.norm()));
-  }
-
-  int add_coordinate(const joints::JointCoordinate& law) {
-    std::vector<Coordinate>& all = find_.model().coordinates;
-    all.push_back({-1, load_.first, load_.second, law});
-    return static_cast<int>(all.size()) - 1;
   }
 
   std::vector<spatial::RigidTouch> touches(const loads::ContactPair& pair) const {
@@ -188,37 +169,17 @@ class ContactBuilder {
   }
 
   void set_rigid(const loads::ContactPair& pair) {
-    for (const spatial::RigidTouch& touch : touches(pair)) {
-      Load own = load_;
-      own.shapes = nullptr;  // drawn once
-      own.coordinate = add_coordinate(joints::JointCoordinate::gap(
-          std::make_shared<joints::ContactWay>(touch, joints::ContactWay::Direction::across)));
-      own.element = std::make_shared<loads::ContactStop>(
-          touch, spec_.restitution.value_or(0.0), spec_.threshold.value_or(rigid_threshold()));
-      behind_.push_back(std::move(own));
-      if (spec_.coefficient > 0.0) add_friction(touch);
+    Load like = load_;
+    like.shapes = nullptr;  // drawn once
+    for (RigidContactRow& row :
+         rigid_contact_rows(like, touches(pair), rigid_pair_law(spec_), size_)) {
+      row.load.coordinate = static_cast<int>(find_.model().coordinates.size());
+      find_.model().coordinates.push_back(std::move(row.coordinate));
+      behind_.push_back(std::move(row.load));
     }
     load_.coordinate = behind_.front().coordinate;
     load_.element = behind_.front().element;
     behind_.erase(behind_.begin());
-  }
-
-  void add_friction(const spatial::RigidTouch& touch) {
-    loads::ContactFrictionData data;
-    data.static_coefficient = spec_.coefficient;
-    data.dynamic_coefficient = spec_.dynamic.value_or(spec_.coefficient);
-    data.stribeck_speed = spec_.stribeck.value_or(0.0);
-    data.at_rest = kNoSlip * size_;
-    using Direction = joints::ContactWay::Direction;
-    for (int k = 0; k < touch.num_directions(); ++k) {
-      Load own = load_;
-      own.shapes = nullptr;
-      own.coordinate =
-          add_coordinate(joints::JointCoordinate::gap(std::make_shared<joints::ContactWay>(
-              touch, k == 0 ? Direction::along : Direction::other_along)));
-      own.element = std::make_shared<loads::ContactFriction>(touch, data, k);
-      behind_.push_back(std::move(own));
-    }
   }
 
   const loads::ContactSpec& spec_;

@@ -13,6 +13,8 @@
 #include "buckens/loads/many_contacts.h"
 #include "buckens/loads/near_pairs.h"
 #include "buckens/model/build/contact_shapes.h"
+#include "buckens/model/build/rigid_contact_rows.h"
+#include "buckens/model/build/rigid_pairs.h"
 #include "buckens/model/contact_group.h"
 
 namespace buckens::model {
@@ -24,6 +26,9 @@ namespace {
 
 // Rounding of places, as a share of the smaller shape.
 constexpr double kOutOfOnePlane = 1e-9;
+// Overlap of rigid contacts that is rounding, and one that needs no exact places, likewise.
+constexpr double kTouchingRigidly = 1e-9;
+constexpr double kDeepBelow = 0.1;
 // Share of m r² below which a body has no rotary inertia.
 constexpr double kNoTurningInertia = 1e-12;
 
@@ -40,7 +45,11 @@ class GroupBuilder {
   std::shared_ptr<const ContactGroup> build() {
     group_->load = find_.model().loads.size();
     group_->gravity = find_.model().gravity.norm();
-    group_->law = loads::elastic_law(spec_);
+    if (spec_.stiffness || spec_.modulus) {
+      group_->law = loads::elastic_law(spec_);
+    } else {
+      group_->rigid = rigid_pair_law(spec_);
+    }
     if (spec_.modulus) {
       const double poisson = spec_.poisson.value_or(group_->law.poisson[0]);
       group_->law.modulus = {*spec_.modulus, *spec_.modulus};
@@ -166,19 +175,26 @@ class GroupBuilder {
 
   void require_place(const ContactMember& first, const spatial::MarkerMotion& X,
                      const ContactMember& second, const spatial::MarkerMotion& Y) const {
-    const double admitted = std::min(loads::size_of(first.shape), loads::size_of(second.shape));
+    const double size = std::min(loads::size_of(first.shape), loads::size_of(second.shape));
+    const double admitted = group_->rigid ? kTouchingRigidly * size : size;
     const loads::ContactPair pair(first.shape, second.shape);
     loads::ContactPair::Spots spots;
     pair.find(X.R.transpose() * (Y.p - X.p), X.R.transpose() * Y.R, spots);
     for (int k = 0; k < pair.num_spots(); ++k) {
-      const double gap = spots[static_cast<std::size_t>(k)].gap;
+      double gap = spots[static_cast<std::size_t>(k)].gap;
       if (gap >= -admitted) continue;
+      // Spots may be beside what touches: rigid contacts have exact places, unless deep inside.
+      if (group_->rigid && gap >= -kDeepBelow * size) {
+        gap = least_gap(touches_of(find_.model(), first, second),
+                        find_.placement(first.marker, second.marker));
+        if (gap >= -admitted) return;
+      }
       throw InputError(
           where_,
           fmt::format(
-              "{}: {} and {} overlap by {:.4g} m as placed, more than their size; "
-              "place them apart{}",
-              what_, first.marker.text, second.marker.text, -gap,
+              "{}: {} and {} overlap by {:.4g} m as placed{}; place them apart{}", what_,
+              first.marker.text, second.marker.text, -gap,
+              group_->rigid ? "" : ", more than their size",
               first.shape.kind == ContactShape::Kind::plane ? ", or turn the plane's normal" : ""));
     }
   }

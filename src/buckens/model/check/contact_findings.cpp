@@ -83,7 +83,7 @@ Found pair_problem(const loads::ContactSpec& spec) {
 }
 
 /// Keys that only elastic contacts have.
-Found rigid_problem(const loads::ContactSpec& spec) {
+Found rigid_problem(const loads::ContactForceSpec& spec) {
   const auto needs_stiffness = [](const char* key) {
     return Finding{key,
                    "without `stiffness` or `modulus` the contact is rigid, and this has no "
@@ -246,9 +246,6 @@ Found own_joint_problem(const loads::ContactsSpec& spec, const ModelDescription&
   if (Found found = problem_in(spec.among, "among")) return found;
   if (Found found = problem_in(spec.against, "against")) return found;
   if (Found found = kinds_problem(spec)) return found;
-  if (!spec.stiffness && !spec.modulus) {
-    return Finding{"", "contacts of many bodies are elastic; give a `stiffness` or a `modulus`"};
-  }
   if (spec.stiffness && spec.modulus) {
     return Finding{"modulus", "`stiffness` and `modulus` both give the force; remove one of them"};
   }
@@ -262,7 +259,8 @@ Found own_joint_problem(const loads::ContactsSpec& spec, const ModelDescription&
                    "place of `modulus`"};
   }
   if (Found found = restitution_problem(spec)) return found;
-  if (Found found = elastic_loss_problem(spec)) return found;
+  const bool is_rigid = !spec.stiffness && !spec.modulus;
+  if (Found found = is_rigid ? rigid_problem(spec) : elastic_loss_problem(spec)) return found;
   return contact_friction_problem(spec);
 }
 

@@ -165,7 +165,12 @@ std::vector<std::string> built_lines(const Model& model) {
                               body.num_dofs(), body.num_interface_rows(), body.mass));
   }
   out.push_back(fmt::format("joints: {} equations", model.num_constraint_rows()));
-  for (const Load& load : model.loads) out.push_back("load " + load.name + ": " + load.kind);
+  // Those of pairs come and go.
+  const std::size_t count =
+      model.pair_loads.empty() ? model.loads.size() : model.pair_loads.front().first;
+  for (std::size_t k = 0; k < count; ++k) {
+    out.push_back("load " + model.loads[k].name + ": " + model.loads[k].kind);
+  }
   for (const Signal& signal : model.signals.all) {
     if (const FunctionSignal* function = function_of(signal)) {
       out.push_back(fmt::format("signal {}: function of t, {}", signal.name,
