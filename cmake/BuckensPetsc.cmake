@@ -16,5 +16,8 @@ set_target_properties(
   buckens_petsc PROPERTIES CXX_VISIBILITY_PRESET hidden LIBRARY_OUTPUT_DIRECTORY
                                                         "${PROJECT_BINARY_DIR}/lib")
 target_include_directories(buckens_petsc PRIVATE "${PROJECT_SOURCE_DIR}/src")
-target_link_libraries(buckens_petsc PRIVATE buckens_options PkgConfig::petsc MPI::MPI_C)
+find_path(mumps_headers dmumps_c.h REQUIRED)
+find_library(mumps_library dmumps REQUIRED)
+target_include_directories(buckens_petsc SYSTEM PRIVATE ${mumps_headers})
+target_link_libraries(buckens_petsc PRIVATE buckens_options PkgConfig::petsc ${mumps_library} MPI::MPI_C)
 install(TARGETS buckens_petsc LIBRARY DESTINATION lib/buckens COMPONENT program)

@@ -179,6 +179,71 @@ def test_messages_and_bytes_of_a_step_are_counted(mpirun, tmp_path, count):
     assert summary["measures"]["bytes_per_step"] == pytest.approx(expected, rel=1e-12)
 
 
+@several
+def test_messages_and_bytes_of_a_factor_are_those_of_one_vector_each_way(mpirun, tmp_path):
+    """Right-hand sides go where MUMPS has their rows, and answers come from there."""
+    (tmp_path / "cube.yaml").write_text(CUBE)
+    must(mpirun(2, "run", "cube.yaml", "-o", "out"))
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    cube = summary["bodies"]["cube"]
+    solves = cube["solves"] / summary["steps"]
+    assert summary["measures"]["messages_per_step"] == pytest.approx(5 * solves, rel=1e-12)
+    order = 56
+    there = (summary["measures"]["bytes_per_step"] / solves - order - 2 * 4) / (2 * 8)
+    assert there == pytest.approx(round(there), abs=1e-6)
+    # Subtrees of the order of elimination, which differ in size.
+    assert 0.25 * cube["dof"] < there < 0.75 * cube["dof"]
+
+
+@several
+def test_the_factor_has_the_order_of_one_process(buckens, mpirun, tmp_path):
+    """By the order that MUMPS finds itself without METIS it has 1.24 times the entries for a cube of 31 x 31 x 31."""
+    (tmp_path / "cube.yaml").write_text(CUBE)
+    arguments = ("modes", "cube.yaml", "--count", 1, "--method", "subspace", "--json")
+    one = json.loads(buckens(*arguments).must(0).out)
+    two = json.loads(must(mpirun(2, *arguments)).stdout)
+
+    def entries(node):
+        if isinstance(node, dict):
+            return next((found for key, value in node.items() if (found := value if key == "factor_entries" else entries(value))), None)
+        return next((found for value in node if (found := entries(value))), None) if isinstance(node, list) else None
+
+    # MUMPS merges narrow fronts, which adds some.
+    assert entries(one) <= entries(two) < 1.05 * entries(one)
+
+
+def virtual_memory(process):
+    lines = pathlib.Path(f"/proc/{process}/status").read_text().splitlines()
+    return next(1024 * int(line.split()[1]) for line in lines if line.startswith("VmSize"))
+
+
+@several
+def test_too_little_memory_for_a_part_of_the_factor(tmp_path):
+    """On one process only: the first one tells it once, and all end."""
+    (tmp_path / "cube.yaml").write_text(CUBE)
+    one_heap = {**ENVIRONMENT, "MALLOC_ARENA_MAX": "1"}  # others reserve more than they use
+    runs = subprocess.Popen([MPIRUN, "-n", "2", PROGRAM, "run", "cube.yaml", "-o", "enough", "-q", "--set", "simulation.duration=3 s"],
+                            cwd=tmp_path, env=one_heap, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        deadline = time.monotonic() + 240
+        csv = tmp_path / "enough" / "sensors.csv"
+        while not csv.exists() or len(csv.read_text().splitlines()) < 3:
+            assert time.monotonic() < deadline and runs.poll() is None
+            time.sleep(0.1)
+        needed = virtual_memory(started(runs, 1))
+    finally:
+        runs.terminate()
+        runs.wait(timeout=60)
+    # Its part of the factor and of the fronts takes 80 MB of that, and is what it needs last.
+    limited = f"[ $OMPI_COMM_WORLD_RANK = 0 ] || ulimit -v {(needed - 30_000_000) // 1024}; exec \"$@\""
+    command = [MPIRUN, "-n", "2", "sh", "-c", limited, "sh", PROGRAM, "run", "cube.yaml", "-o", "out"]
+    result = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=240, check=False, env=one_heap,
+                            stdin=subprocess.DEVNULL)
+    assert result.returncode != 0
+    told = [line for line in result.stderr.splitlines() if line.startswith("buckens: error")]
+    assert len(told) == 1 and "too little memory" in told[0] and "equations on 2 processes" in told[0], result.stderr
+
+
 def test_one_process_counts_nothing(buckens, tmp_path):
     buckens("run", BLOCKS, "-o", "out", "--set", "simulation.duration=2 ms").must(0)
     measures = json.loads((tmp_path / "out" / "summary.json").read_text()).get("measures", {})

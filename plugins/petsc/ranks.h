@@ -54,6 +54,8 @@ class Ranks {
   bool send_rows(const Part& part, const BuckensGridMatrix& matrix, OwnRows& own);
   bool receive_rows(int count, int num_motions, OwnRows& own);
   bool make_together(const Order& order, const BuckensGridMatrix* matrix);
+  bool factorise_together(const Order& order, const BuckensGridMatrix* matrix);
+  void find_places(int size, Part& part);
   bool solve_together(const Order& order, const double* b, double* x, BuckensGridOutcome& outcome);
   bool has_failed_somewhere(bool has_failed);
 

@@ -6,6 +6,9 @@
 #include <cstdio>
 #include <cstring>
 #include <sstream>
+#include <vector>
+
+#include <petscblaslapack.h>
 
 namespace buckens_petsc {
 
@@ -285,6 +288,13 @@ PetscErrorCode start_petsc() {
     PetscCall(PetscInitializeNoArguments());
   }
   PetscFunctionReturn(0);
+}
+
+void prepare_blas() {
+  const PetscBLASInt n = 64;
+  const PetscScalar one = 1;
+  std::vector<PetscScalar> a(static_cast<std::size_t>(n) * n, one), b(a);
+  BLAStrsm_("L", "L", "N", "U", &n, &n, &one, a.data(), &n, b.data(), &n);
 }
 
 KeptErrors::KeptErrors() {

@@ -55,6 +55,10 @@ double bytes_of(const Solver& solver);
 /// Begins PETSc in this process, which handles signals itself.
 PetscErrorCode start_petsc();
 
+/// OpenBLAS sets memory aside on its first call, and tries for ever if there is none: so before
+/// that of libraries whose errors can be told.
+void prepare_blas();
+
 /// While it lives, errors of PETSc are kept instead of printed.
 class KeptErrors {
  public:

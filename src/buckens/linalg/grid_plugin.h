@@ -7,7 +7,7 @@
 extern "C" {
 
 /// Rises with every change of what stands here.
-enum { kBuckensGridVersion = 3 };
+enum { kBuckensGridVersion = 4 };
 
 /// Some columns of a matrix.
 struct BuckensGridColumns {
@@ -30,6 +30,10 @@ struct BuckensGridMatrix {
   int num_motions;        ///< rigid motions
   const double* motions;  ///< size × num_motions, by columns
   const char* options;    ///< of the library, in its own words; null or empty: none
+  /// Null, or the variable at each place of an order of elimination. Then a factor is made, for
+  /// which `give` gives the lower triangle only, and neither motions nor options are read. Only for
+  /// solvers that several processes share.
+  const int* order;
 };
 
 /// When an iteration may stop: ‖r‖ ≤ clamp(absolute, least ‖r₀‖, most ‖r₀‖), in the norm of the

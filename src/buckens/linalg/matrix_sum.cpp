@@ -11,10 +11,13 @@ namespace buckens::linalg {
 using Eigen::Index;
 
 template <class Visitor>
-void MatrixSum::visit_column(Index column, Visitor&& visit) const {
+void MatrixSum::visit_column(Index column, Index from, Visitor&& visit) const {
   std::vector<SparseMatrix::InnerIterator> at;
   at.reserve(terms_.size());
-  for (const Term& term : terms_) at.emplace_back(*term.A, column);
+  for (const Term& term : terms_) {
+    at.emplace_back(*term.A, column);
+    while (at.back() && at.back().row() < from) ++at.back();
+  }
   for (;;) {
     constexpr Index kEnd = std::numeric_limits<Index>::max();
     Index row = kEnd;
@@ -30,19 +33,20 @@ void MatrixSum::visit_column(Index column, Visitor&& visit) const {
   }
 }
 
-SparseMatrix MatrixSum::columns(Index first, Index count) const {
+SparseMatrix MatrixSum::columns(Index first, Index count, Triangles which) const {
+  const auto first_row = [which](Index column) { return which == Triangles::lower ? column : 0; };
   SparseMatrix out(size(), count);
   int* starts = out.outerIndexPtr();
   starts[0] = 0;
   for (Index k = 0; k < count; ++k) {
     int entries = 0;
-    visit_column(first + k, [&entries](Index, double) { ++entries; });
+    visit_column(first + k, first_row(first + k), [&entries](Index, double) { ++entries; });
     starts[k + 1] = starts[k] + entries;
   }
   out.resizeNonZeros(starts[count]);
   Index place = 0;
   for (Index k = 0; k < count; ++k) {
-    visit_column(first + k, [&](Index row, double value) {
+    visit_column(first + k, first_row(first + k), [&](Index row, double value) {
       out.innerIndexPtr()[place] = static_cast<int>(row);
       out.valuePtr()[place++] = value;
     });
@@ -54,6 +58,23 @@ Vector MatrixSum::diagonal() const {
   Vector out = Vector::Zero(size());
   for (const Term& term : terms_) out += term.weight * term.A->diagonal();
   return out;
+}
+
+const SparseMatrix* MatrixSum::widest() const {
+  const SparseMatrix* most = nullptr;
+  for (const Term& term : terms_) {
+    if (most == nullptr || term.A->nonZeros() > most->nonZeros()) most = term.A;
+  }
+  for (const Term& term : terms_) {
+    for (Index k = 0; k < size() && term.A != most; ++k) {
+      SparseMatrix::InnerIterator wide(*most, k);
+      for (SparseMatrix::InnerIterator it(*term.A, k); it; ++it) {
+        while (wide && wide.row() < it.row()) ++wide;
+        if (!wide || wide.row() != it.row()) return nullptr;
+      }
+    }
+  }
+  return most;
 }
 
 void MatrixSum::require_finite() const {

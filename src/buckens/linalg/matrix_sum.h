@@ -7,6 +7,8 @@
 
 namespace buckens::linalg {
 
+enum class Triangles { both, lower };
+
 /// A = Σ w_k A_k of symmetric matrices, both triangles stored, which is formed whole or some
 /// columns at a time: what solves with A may need only a share of it at once.
 class MatrixSum {
@@ -18,9 +20,13 @@ class MatrixSum {
   Eigen::Index size() const { return terms_.empty() ? 0 : terms_.front().A->cols(); }
   /// Some columns, n×count, their rows ascending; takes no more memory than they do. Entries are
   /// summed in the order of the terms, so they have the bits of `w_1 * A_1 + w_2 * A_2 + …`.
-  SparseMatrix columns(Eigen::Index first, Eigen::Index count) const;
+  SparseMatrix columns(Eigen::Index first, Eigen::Index count,
+                       Triangles which = Triangles::both) const;
   SparseMatrix whole() const { return columns(0, size()); }
   Vector diagonal() const;
+  /// The term that has entries wherever others have some, which so has the pattern of the sum; null
+  /// if there is none.
+  const SparseMatrix* widest() const;
   /// @throws NumericalError if an entry of a term is not finite
   void require_finite() const;
 
@@ -30,9 +36,9 @@ class MatrixSum {
     const SparseMatrix* A;
   };
 
-  /// Calls visit(row, value) for the entries of a column, rows ascending.
+  /// Calls visit(row, value) for the entries of a column from a row on, rows ascending.
   template <class Visitor>
-  void visit_column(Eigen::Index column, Visitor&& visit) const;
+  void visit_column(Eigen::Index column, Eigen::Index from, Visitor&& visit) const;
 
   std::vector<Term> terms_;
 };

@@ -8,10 +8,12 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/linalg/elimination_order.h"
 #include "buckens/linalg/factor_work.h"
 #include "buckens/linalg/grid_library.h"
 #include "buckens/linalg/single_thread.h"
@@ -23,8 +25,6 @@ namespace {
 
 // Smaller factors are solved faster than vectors are sent.
 constexpr Eigen::Index kWorthSharing = 20000;
-constexpr const char* kMumps =
-    "-ksp_type preonly -pc_type cholesky -pc_factor_mat_solver_type mumps";
 
 int count_of_ranks = 1;
 
@@ -36,14 +36,33 @@ std::optional<int> number_in_environment(const char* name) {
   return std::atoi(text);
 }
 
+/// The variable at each place of the order of the factor of one process.
+std::vector<int> places_in_factor(const MatrixSum& A) {
+  const SparseMatrix* pattern = A.widest();
+  const ColumnGraph graph = column_graph(pattern != nullptr ? *pattern : A.whole());
+  std::vector<int> out;
+  out.reserve(graph.columns.size());
+  for (const int vertex : elimination_order(graph)) {
+    const auto v = static_cast<std::size_t>(vertex);
+    out.insert(out.end(), graph.columns.begin() + graph.first_column[v],
+               graph.columns.begin() + graph.first_column[v + 1]);
+  }
+  return out;
+}
+
 class SharedFactor final : public Factor {
  public:
   explicit SharedFactor(const MatrixSum& A) : size_(A.size()), plugin_(grid_solver()) {
     A.require_finite();
     FactorWork work(size_);
-    ColumnSource columns(A);
-    const BuckensGridMatrix matrix{
-        static_cast<int>(size_), {}, ColumnSource::give, &columns, 1, 0, nullptr, kMumps};
+    const std::vector<int> order = places_in_factor(A);
+    ColumnSource columns(A, Triangles::lower);
+    BuckensGridMatrix matrix{};
+    matrix.size = static_cast<int>(size_);
+    matrix.give = ColumnSource::give;
+    matrix.source = &columns;
+    matrix.block = 1;
+    matrix.order = order.data();
     std::array<char, 400> error{};
     {
       const std::scoped_lock lock(turn_of_grid_solver());
@@ -162,7 +181,7 @@ void ColumnSource::give(void* source, int first, int end, BuckensGridColumns* co
   if (columns == nullptr) return;
   *columns = {};
   try {
-    own.piece_ = own.A_->columns(first, end - first);
+    own.piece_ = own.A_->columns(first, end - first, own.which_);
   } catch (const std::bad_alloc&) {
     return;  // the plug-in says so to all processes
   }

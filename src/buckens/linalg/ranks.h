@@ -59,7 +59,8 @@ std::shared_ptr<const Factor> make_large_factor_of(const MatrixSum& A);
 /// Gives columns of a sum to the plug-in (BuckensGridMatrix::give), one run of them at a time.
 class ColumnSource {
  public:
-  explicit ColumnSource(const MatrixSum& A) : A_(&A) {}
+  explicit ColumnSource(const MatrixSum& A, Triangles which = Triangles::both)
+      : A_(&A), which_(which) {}
   /// With this object as `source`.
   static void give(void* source, int first, int end, BuckensGridColumns* columns);
   /// Of all columns that were given.
@@ -67,6 +68,7 @@ class ColumnSource {
 
  private:
   const MatrixSum* A_;
+  Triangles which_;
   SparseMatrix piece_;
   double entries_ = 0;
 };

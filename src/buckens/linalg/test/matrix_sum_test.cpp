@@ -69,6 +69,26 @@ TEST(MatrixSumTest, RunsOfColumnsMakeUpTheWhole) {
   EXPECT_EQ(of.sum.columns(3, 0).nonZeros(), 0);
 }
 
+TEST(MatrixSumTest, LowerTrianglesOfRunsOfColumnsMakeUpThatOfTheWhole) {
+  const SumOfThree of;
+  const SparseMatrix expected = of.expected().triangularView<Eigen::Lower>();
+  for (Eigen::Index first = 0; first < of.sum.size(); first += 5) {
+    const Eigen::Index count = std::min<Eigen::Index>(5, of.sum.size() - first);
+    expect_same(of.sum.columns(first, count, Triangles::lower), expected.middleCols(first, count));
+  }
+}
+
+TEST(MatrixSumTest, TheWidestTermHasThePatternOfTheSumOrThereIsNone) {
+  const SumOfThree of;
+  EXPECT_EQ(of.sum.widest(), nullptr) << "the few entries lie beside the grid";
+  MatrixSum two;
+  EXPECT_EQ(two.widest(), nullptr);
+  two.add(1.0, of.diagonal);
+  EXPECT_EQ(two.widest(), &of.diagonal);
+  two.add(2.0, of.grid);
+  EXPECT_EQ(two.widest(), &of.grid);
+}
+
 TEST(MatrixSumTest, NothingIsOfSizeZero) {
   EXPECT_EQ(MatrixSum().size(), 0);
   EXPECT_EQ(MatrixSum().whole().rows(), 0);
