@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "buckens/stepping/step_failure.h"

@@ -32,7 +32,7 @@ constexpr double kGives = 1e-9;
 // Answers by this share of the largest one.
 constexpr double kAnswersNothing = 1e-12;
 
-using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+using RowsOfAnswers = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 class ManyPlaces {
  public:
@@ -143,7 +143,7 @@ class ManyPlaces {
 
   void add_row_of_answers(Eigen::Index row, Eigen::Index of, double factor) {
     if (factor == 0.0) return;
-    for (RowMatrix::InnerIterator it(D_, of); it; ++it) add(row, it.col(), factor * it.value());
+    for (RowsOfAnswers::InnerIterator it(D_, of); it; ++it) add(row, it.col(), factor * it.value());
   }
   void add(Eigen::Index row, Eigen::Index column, double value) {
     entries_.emplace_back(static_cast<int>(row), static_cast<int>(column), value);
@@ -192,7 +192,7 @@ class ManyPlaces {
     }
   }
 
-  RowMatrix D_, sizes_;
+  RowsOfAnswers D_, sizes_;
   const Vector& b_;
   const std::vector<ConeRows>& places_;
   double none_;
