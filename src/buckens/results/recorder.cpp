@@ -23,7 +23,7 @@ const std::vector<std::string> kXyz = {"x", "y", "z"};
 // More bodies and joints than this have rows in two tables, in place of two or three data sets of
 // their own: HDF5 closes a file that others may read in a time that increases with the square of
 // their number, and each takes some 10 kB at least.
-constexpr std::size_t kMostWithOwnChannels = 6000;
+constexpr std::size_t kMostWithOwnChannels = 3000;
 
 /// Whether bodies and joints have rows in two tables.
 bool are_in_tables(const model::Model& model) {

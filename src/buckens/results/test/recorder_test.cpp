@@ -66,7 +66,7 @@ Described points(int count) {
 }
 
 TEST(Recorder, PutsManyBodiesIntoOneTable) {
-  constexpr int kMany = 6000;  // and a joint
+  constexpr int kMany = 3000;  // and a joint
   Recorded run(points(kMany));
   const RecordLayout& layout = run.recorder.layout();
   EXPECT_EQ(layout.find("bodies/p0/pose"), -1);
