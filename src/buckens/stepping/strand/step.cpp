@@ -122,7 +122,17 @@ bool StrandStep::move(StepReport& report, Change& change) {
   std::vector<strand::BodyBlock>& bodies = mechanism_.body_blocks();
   std::vector<strand::JointBlock>& joints = mechanism_.joint_blocks();
   E_ = residuals_.g_dot / scheme_.end_rate - residuals_.g;
-  mechanism_.matrix().solve_in_place(E_);
+  double gap = 0;
+  for (const int row : all_rows_) {
+    gap = larger(gap, std::abs(E_[row]) * (watch_.is_length(row) ? 1.0 : model_.length));
+  }
+  // A correction does not close the rounding of positions: it turns short links to and fro, and the
+  // iteration with them.
+  if (ending_.is_rounding({gap, 0.0})) {
+    E_.setZero();
+  } else {
+    mechanism_.matrix().solve_in_place(E_);
+  }
   sweep.joints_first([&](std::size_t k) { kernels_.apply(joints[k], E_.data()); },
                      [&](std::size_t k) { kernels_.correct(is, bodies[k]); },
                      [&](std::size_t k) { kernels_.find_changes(joints[k], X_.data()); });
