@@ -69,11 +69,7 @@ void tell_rest(const model::Model& model, std::size_t load, const Circumstances&
     const auto* friction = dynamic_cast<const loads::ContactFriction*>(own.element.get());
     if (friction != nullptr) sight.reaction = reaction_of(model, load, around, sight, *friction);
   }
-  if (around.signals != nullptr) {
-    sight.signals = *around.signals;
-  } else if (around.memory != nullptr) {
-    sight.signals = around.memory->signals;
-  }
+  sight.signals = signals_of(around);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
 
@@ -17,6 +19,20 @@ struct Circumstances {
   /// t and the values of all signals at the instant; null: as the memory has them.
   const std::vector<double>* signals = nullptr;
 };
+
+/// t and the values of all signals; empty where nothing says them.
+inline std::span<const double> signals_of(const Circumstances& around) {
+  if (around.signals != nullptr) return *around.signals;
+  if (around.memory != nullptr) return around.memory->signals;
+  return {};
+}
+
+/// Gravity [m/s²], world: the model's until an event changes it.
+/// @param signals t and the values of all signals; empty: the model's
+inline Eigen::Vector3d gravity_at(const model::Model& model, std::span<const double> signals) {
+  if (model.gravity_settings < 0 || signals.empty()) return model.gravity;
+  return Eigen::Map<const Eigen::Vector3d>(signals.data() + 1 + model.gravity_settings);
+}
 
 /// Those of a state.
 Circumstances circumstances_of(const model::State& state);

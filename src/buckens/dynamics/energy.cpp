@@ -40,11 +40,12 @@ double kinetic_energy(const body::Body& body, const model::BodyState& state) {
 
 Energy energy(const model::Model& model, const model::State& state) {
   Energy out;
+  const Vector3d gravity = gravity_at(model, state.memory.signals);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const body::Body& body = model.bodies[b];
     const model::BodyState& s = state.bodies[b];
     out.kinetic += kinetic_energy(body, s);
-    out.gravity -= body.mass * model.gravity.dot(s.frame.X_WB.p);
+    out.gravity -= body.mass * gravity.dot(s.frame.X_WB.p);
     // The motion of a quasi-static body does no work on its deformation.
     if (body.is_flexible() && !body.flexible->is_quasi_static) {
       out.strain += 0.5 * s.d.dot(body.flexible->fe.K * s.d);

@@ -21,7 +21,9 @@ struct Energy {
 Energy energy(const model::Model& model, const model::State& state);
 
 /// Difference between the gravitational energy relative to the origin of the model file and
-/// Energy::gravity. Kept separate so that differences of energies lose no digits far away.
+/// Energy::gravity, by the gravity that the model begins with: a constant, so that what an event
+/// changes is the same in both. Kept separate so that differences of energies lose no digits far
+/// away.
 double gravity_datum(const model::Model& model);
 
 /// Linear momentum [N s] and angular momentum about Model::origin [N m s], world axes.

@@ -94,12 +94,12 @@ void add_others(const model::Model& model, std::size_t k, double t, const Circum
 
 }  // namespace
 
-void Forces::reset(const model::Model& model) {
+void Forces::reset(const model::Model& model, const Eigen::Vector3d& gravity) {
   frame.resize(model.bodies.size());
   interface.resize(model.bodies.size());
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     frame[b].setZero();
-    frame[b].tail<3>() = model.bodies[b].mass * model.gravity;
+    frame[b].tail<3>() = model.bodies[b].mass * gravity;
     interface[b].setZero(model.bodies[b].num_interface_rows());
   }
   stored_energy = 0;
@@ -123,8 +123,8 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
 void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                      const Circumstances& given, Forces& out, double load_factor,
                      const std::vector<char>* at_joints) {
-  out.reset(model);
   const Circumstances around = with_signals(model, motions, t, given, out.signals);
+  out.reset(model, gravity_at(model, signals_of(around)));
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const model::Load& load = model.loads[k];
     if (at_joints != nullptr && (*at_joints)[k] != 0) {

@@ -41,7 +41,9 @@ struct Forces {
   /// Of each load, where account() has asked for them; otherwise empty.
   std::vector<LoadPower> of_loads;
 
-  void reset(const model::Model& model);
+  void reset(const model::Model& model) { reset(model, model.gravity); }
+  /// @param gravity of the instant [m/s²]
+  void reset(const model::Model& model, const Eigen::Vector3d& gravity);
   /// Keeps the place of a load that is evaluated elsewhere.
   void leave_place(const model::Load& load);
   /// Asks for the powers of single loads. Those of laws that a JointSet evaluates are left out.

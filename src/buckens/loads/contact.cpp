@@ -90,6 +90,8 @@ std::span<const Contact::Point> Contact::look(const Sight& sight, std::span<Cont
                                               std::span<Point> points) const {
   const Stand now = stand_of(sight);
   pair_.find(now.r, now.q.toRotationMatrix(), spots);
+  ContactData data = data_;
+  if (settings_.any()) settings_.put(sight.signals, data);
   const double* states = sight.states;
   Vector3d shift = Vector3d::Zero();
   Vector3d turn = Vector3d::Zero();
@@ -114,10 +116,10 @@ std::span<const Contact::Point> Contact::look(const Sight& sight, std::span<Cont
     const double* own = nullptr;
     if (states != nullptr) own = states + first_state(k);
     point.across =
-        normal_force(data_, -point.gap, -point.gap_rate, own != nullptr ? own[kApproach] : 0.0);
+        normal_force(data, -point.gap, -point.gap_rate, own != nullptr ? own[kApproach] : 0.0);
     if (spot.share != 1.0) point.across *= spot.share;
-    if (point.gap < 0.0 && data_.exponent == 1.0) {
-      point.across.energy += data_.stiffness * spot.held;
+    if (point.gap < 0.0 && data.exponent == 1.0) {
+      point.across.energy += data.stiffness * spot.held;
     }
     if (!has_friction()) continue;
     Vector3d strain = Vector3d::Zero();
@@ -128,7 +130,7 @@ std::span<const Contact::Point> Contact::look(const Sight& sight, std::span<Cont
       point.moved = slip.norm();
       strain = sight.first.R * (into_surface(read_vector(own + kStrain), spot.normal) + slip);
     }
-    point.along = friction_force(data_, strain, point.slip, point.across.force);
+    point.along = friction_force(data, strain, point.slip, point.across.force);
   }
   return points.first(count);
 }

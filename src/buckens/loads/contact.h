@@ -7,6 +7,7 @@
 
 #include "buckens/loads/contact_law.h"
 #include "buckens/loads/contact_pair.h"
+#include "buckens/loads/contact_settings.h"
 #include "buckens/loads/force_element.h"
 
 namespace buckens::loads {
@@ -26,7 +27,8 @@ struct ContactReading {
 /// Theory: docs/theory/25-contact.md.
 class Contact final : public ForceElement {
  public:
-  Contact(const ContactPair& pair, const ContactData& data) : pair_(pair), data_(data) {}
+  Contact(const ContactPair& pair, const ContactData& data, const ContactSettings& settings = {})
+      : pair_(pair), data_(data), settings_(settings) {}
 
   /// Nothing: it needs its states, see respond().
   Action evaluate(double t, const spatial::MarkerMotion& first,
@@ -38,7 +40,12 @@ class Contact final : public ForceElement {
   void start_states(const Sight& sight, double* states) const override;
   void find_states(const Sight& sight, double* states) const override;
 
+  bool has_driven_energy() const override { return settings_.stiffness > 0; }
+  /// Whether events change any of its numbers.
+  bool is_changed() const { return settings_.any(); }
+
   ContactReading read(const Sight& sight) const;
+  /// As the model says: events do not count.
   const ContactData& data() const { return data_; }
   const ContactPair& pair() const { return pair_; }
 
@@ -87,6 +94,7 @@ class Contact final : public ForceElement {
 
   ContactPair pair_;
   ContactData data_;
+  ContactSettings settings_;
 };
 
 }  // namespace buckens::loads

@@ -25,6 +25,12 @@ double ContactFrictionData::coefficient(double speed) const {
          (static_coefficient - dynamic_coefficient) * std::exp(-slowness * slowness);
 }
 
+ContactFrictionData ContactFriction::data_at(std::span<const double> signals) const {
+  ContactFrictionData out = data_;
+  if (settings_.changes_friction()) settings_.put(signals, out);
+  return out;
+}
+
 bool ContactFriction::began_sliding(const Sight& sight) {
   return sight.states != nullptr && sight.states[0] == 2.0;
 }
@@ -67,9 +73,10 @@ RigidRow ContactFriction::row(const Sight& sight) const {
     out.next = {now.speed > data_.at_rest ? 2 : 1, 0.0};
     return out;
   }
-  const double given = -data_.coefficient(now.speed) * now.load * now.towards[direction_];
+  const double given =
+      -data_at(sight.signals).coefficient(now.speed) * now.load * now.towards[direction_];
   if (out.is_closed) {
-    const double most = data_.static_coefficient * now.load;
+    const double most = data_at(sight.signals).static_coefficient * now.load;
     const double size = now.force.norm();
     if (size > most * (1.0 + kOnCone)) out.next = {2, now.force[direction_] * (most / size)};
     return out;
@@ -89,7 +96,8 @@ void ContactFriction::append_tangent(const Sight& sight, std::vector<SoftRow>& r
   if (!(now.speed > data_.at_rest) || !(now.load > 0.0)) return;
   // The direction of sliding answers what comes across it.
   const double ahead = now.towards[direction_];
-  rows.back().damping = data_.coefficient(now.speed) * now.load / now.speed * (1.0 - ahead * ahead);
+  rows.back().damping =
+      data_at(sight.signals).coefficient(now.speed) * now.load / now.speed * (1.0 - ahead * ahead);
 }
 
 void ContactFriction::find_states(const Sight& sight, double* states) const {
@@ -99,13 +107,14 @@ void ContactFriction::find_states(const Sight& sight, double* states) const {
   // The next step begins with the direction that this one has ended with.
   const Slip now = slip(sight);
   if (!(now.speed > data_.at_rest)) return;
-  states[1] = -data_.coefficient(now.speed) * now.load * now.velocity[direction_] / now.speed;
+  states[1] = -data_at(sight.signals).coefficient(now.speed) * now.load * now.velocity[direction_] /
+              now.speed;
 }
 
 double ContactFriction::slope(const Sight& sight) const {
   if (sight.stand.regime < 2) return 0.0;
   const Slip now = slip(sight);
-  return -data_.coefficient(now.speed) * now.towards[direction_];
+  return -data_at(sight.signals).coefficient(now.speed) * now.towards[direction_];
 }
 
 }  // namespace buckens::loads

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
+#include "buckens/loads/contact_settings.h"
 #include "buckens/loads/rigid_law.h"
 #include "buckens/spatial/rigid_touch.h"
 
@@ -30,14 +33,18 @@ class ContactFriction final : public RigidLaw {
   static constexpr int kHeldDirection = 3;
 
   /// @param direction 0, or 1 of a surface with two
-  ContactFriction(const spatial::RigidTouch& touch, const ContactFrictionData& data, int direction)
-      : touch_(touch), data_(data), direction_(direction) {}
+  ContactFriction(const spatial::RigidTouch& touch, const ContactFrictionData& data, int direction,
+                  const ContactSettings& settings = {})
+      : touch_(touch), data_(data), direction_(direction), settings_(settings) {}
 
   void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const override;
   void find_states(const Sight& sight, double* states) const override;
   int direction() const { return direction_; }
   const spatial::RigidTouch& touch() const { return touch_; }
+  /// As the model says: events do not count.
   const ContactFrictionData& data() const { return data_; }
+  /// As events have left it. @param signals t and the values of all signals
+  ContactFrictionData data_at(std::span<const double> signals) const;
   /// Derivative of the force by the size of the force across the surface.
   double slope(const Sight& sight) const;
 
@@ -59,6 +66,7 @@ class ContactFriction final : public RigidLaw {
   spatial::RigidTouch touch_;
   ContactFrictionData data_;
   int direction_;
+  ContactSettings settings_;
 };
 
 }  // namespace buckens::loads

@@ -21,6 +21,9 @@ struct ContactData {
   double inertia = 0;               ///< that friction stops [kg]
 };
 
+/// Below it the loss would have to act within the first thousandth of the overlap.
+constexpr double kLeastElasticRestitution = 0.01;
+
 /// α of the force K δⁿ (1 + α δ̇/v) with which a free body that comes with the speed v leaves with
 /// e v, exactly and for any exponent: α (1 + e) = ln((1 + α)/(1 − α e)).
 /// @param restitution e, 0 < e ≤ 1

@@ -9,6 +9,7 @@
 #include "buckens/base/field.h"
 #include "buckens/base/marker_ref.h"
 #include "buckens/base/source_location.h"
+#include "buckens/loads/contact_settings.h"
 #include "buckens/loads/contact_shape_spec.h"
 
 namespace buckens::loads {
@@ -108,6 +109,7 @@ struct ContactSpec : ContactForceSpec {
   std::array<ShapeSpec, 2> shapes;
   std::optional<std::array<double, 2>> modulus;  ///< [Pa]
   std::optional<std::array<double, 2>> poisson;
+  ContactSettings settings;  ///< of what events change, as the model is built
 
   template <class Visitor>
   void fields(Visitor& visit) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "buckens/loads/force_element.h"
 
 namespace buckens::loads {
@@ -33,8 +35,11 @@ class RigidLaw : public ForceElement {
   /// strikes.
   virtual Contact contact(double /*value*/) const { return {}; }
   /// Share of the speed of approach with which it is left again.
-  /// @param approach > 0 [m/s] or [rad/s]
-  virtual double restitution(double /*approach*/) const { return 0.0; }
+  /// @param approach > 0 [m/s] or [rad/s], @param signals t and the values of all signals; may be
+  /// empty
+  virtual double restitution(double /*approach*/, std::span<const double> /*signals*/) const {
+    return 0.0;
+  }
   /// A motor: its power comes from outside.
   virtual bool is_source() const { return false; }
   /// Of the coordinate while the row is closed, as far as laws of time and the motion say [m/s²] or
@@ -75,11 +80,13 @@ class RigidStop : public RigidLaw {
   Contact contact(double value) const override;
   /// Value of the coordinate at the end that a regime holds [m] or [rad].
   double end(int regime) const { return regime == 1 ? from_ : to_; }
-  double restitution(double approach) const override {
-    return approach > threshold_ ? restitution_ : 0.0;
+  double restitution(double approach, std::span<const double> signals) const final {
+    return approach > threshold_ ? restitution_at(signals) : 0.0;
   }
 
  protected:
+  /// Of what comes faster than the threshold.
+  virtual double restitution_at(std::span<const double> /*signals*/) const { return restitution_; }
   RigidRow row(const Sight& sight) const override;
 
  private:

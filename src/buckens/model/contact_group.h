@@ -28,6 +28,7 @@ struct RigidPairLaw {
   double static_coefficient = 0;
   double dynamic_coefficient = 0;
   double stribeck_speed = 0;
+  loads::ContactSettings settings;  ///< of single contacts
 };
 
 /// Many bodies that touch each other by one law.

@@ -144,6 +144,9 @@ struct PairLoads {
 struct Model {
   std::string title;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< [m/s²] world
+  /// The first of the three settings in SignalSet::all that are its components where events change
+  /// it, −1: none do. See dynamics::gravity_at().
+  int gravity_settings = -1;
   std::optional<spatial::Plane> planar;
   std::vector<body::Body> bodies;
   /// The bodies of the model file in its order. Empty in models made without one.

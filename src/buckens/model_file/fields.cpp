@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/model_file/fields.h"
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -49,15 +50,24 @@ std::vector<std::string> keys_of(const std::vector<Field>& fields) {
   return out;
 }
 
-/// Reads the field that may abbreviate its whole record.
+bool takes_list(const base::MemberType& type) {
+  if (type.form() == Form::optional) return takes_list(type.part_type());
+  return type.form() == Form::array || type.form() == Form::list || type.is<Eigen::Vector3d>();
+}
+
+/// Reads the field that may abbreviate its whole record. Of two, one takes lists.
 /// @returns whether there is one
 bool read_shorthand(const ReadPlace& place, ReadContext& context,
                     const std::vector<Field>& fields) {
+  const auto num_short = std::count_if(fields.begin(), fields.end(),
+                                       [](const Field& field) { return field.note.is_shorthand; });
   bool is_found = false;
   for (const Field& field : fields) {
     if (field.member.type->form() == Form::variant) continue;
     const bool is_whole_content = field.note.name.empty();
-    const bool is_short = field.note.is_shorthand && !place.node.is_map();
+    const bool is_short =
+        field.note.is_shorthand && !place.node.is_map() &&
+        (num_short == 1 || takes_list(*field.member.type) == place.node.is_list());
     if (!is_whole_content && !is_short) continue;
     read_value(place, field.note, context, field.member);
     is_found = true;

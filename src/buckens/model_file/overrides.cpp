@@ -38,7 +38,8 @@ class OverrideWalk {
     } else if (shape_->kind == Shape::Kind::record && shape_->find(key) == nullptr &&
                shape_->shorthand() != nullptr) {
       // A value that stands for its record, such as the position of a node.
-      shape_ = &shape_->shorthand()->shape;
+      const FieldShape* list = node_->is_list() ? shape_->list_shorthand() : nullptr;
+      shape_ = &(list != nullptr ? list : shape_->shorthand())->shape;
       enter(key, is_last);
       return;
     }

@@ -190,7 +190,9 @@ class ReferenceWriter {
     text += "\n";
     const FieldShape* shorthand = record.shorthand();
     if (shorthand != nullptr && !shorthand->note.name.empty()) {
-      text += fmt::format("A single value in place of the map is `{}`.\n\n", shorthand->note.name);
+      const FieldShape* list = record.list_shorthand();
+      text += fmt::format("A single value in place of the map is `{}`{}.\n\n", shorthand->note.name,
+                          list == nullptr ? "" : fmt::format(", a list `{}`", list->note.name));
     }
   }
 

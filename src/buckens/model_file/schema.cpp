@@ -93,7 +93,12 @@ Json record_or_shorthand_schema(const Shape& shape) {
   if (shorthand == nullptr) return record_schema(shape);
   Json single = schema_of(shorthand->shape, shorthand->note);
   if (shorthand->note.name.empty()) return single;
-  return any_of({std::move(single), record_schema(shape)});
+  std::vector<Json> all = {std::move(single)};
+  if (const FieldShape* list = shape.list_shorthand()) {
+    all.push_back(schema_of(list->shape, list->note));
+  }
+  all.push_back(record_schema(shape));
+  return any_of(std::move(all));
 }
 
 Json list_schema(const Shape& shape, const base::FieldNote& note) {

@@ -151,6 +151,14 @@ const FieldShape* Shape::shorthand() const {
   return nullptr;
 }
 
+const FieldShape* Shape::list_shorthand() const {
+  const FieldShape* const first = shorthand();
+  for (const FieldShape& field : fields) {
+    if (field.note.is_shorthand && &field != first && field.shape.kind == Kind::list) return &field;
+  }
+  return nullptr;
+}
+
 const FieldShape* Shape::find(const std::string& key) const {
   for (const auto* list : {&fields, &alternatives}) {
     for (const FieldShape& field : *list) {

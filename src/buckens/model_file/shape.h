@@ -41,6 +41,8 @@ struct Shape {
 
   /// The field that may abbreviate the whole record, or null.
   const FieldShape* shorthand() const;
+  /// Of two fields that abbreviate a record, that which takes lists.
+  const FieldShape* list_shorthand() const;
   /// Field or alternative of that key, or null.
   const FieldShape* find(const std::string& key) const;
   std::vector<std::string> keys() const;

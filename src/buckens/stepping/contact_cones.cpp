@@ -22,7 +22,8 @@ ContactCones::ContactCones(const model::Model& model) : answers_(model) {
   for (const model::Load& load : model.loads) {
     const auto* law = dynamic_cast<const loads::ContactFriction*>(load.element.get());
     if (law != nullptr && law->direction() == 0) {
-      places_.push_back({law, load.rigid_row - 1, soft - 1, law->touch().num_directions()});
+      places_.push_back(
+          {law, load.rigid_row - 1, soft - 1, law->touch().num_directions(), law->data()});
     }
     soft += load.element->num_soft_rows();
     if (load.rigid_row >= 0) ++rigid_rows;
@@ -59,7 +60,7 @@ bool ContactCones::holds(const Place& place, const Now& now,
   }
   if (!now.is_pressed || now.sticks) return true;
   const double speed = now.slip.norm();
-  const double at_rest = place.law->data().at_rest;
+  const double at_rest = place.data.at_rest;
   if (!(speed > at_rest)) return true;
   return (now.force * speed + now.slip * now.force.norm()).norm() <=
          (kAligned * speed + 4.0 * at_rest) * now.force.norm();
@@ -91,7 +92,7 @@ ContactCones::Pressed ContactCones::gather(const std::vector<loads::RigidRow>& r
   for (std::size_t k = 0; k < out.places.size(); ++k) {
     const Place& place = *out.places[k];
     const Now now = look(place, rows, stands);
-    const auto& data = place.law->data();
+    const loads::ContactFrictionData& data = place.data;
     out.slips.push_back({static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(out.pushes.size()),
                          place.count,
                          now.sticks ? data.static_coefficient : data.coefficient(now.slip.norm())});
@@ -101,6 +102,9 @@ ContactCones::Pressed ContactCones::gather(const std::vector<loads::RigidRow>& r
 }
 
 bool ContactCones::condense(const Instant& now) {
+  if (now.memory != nullptr) {
+    for (Place& place : places_) place.data = place.law->data_at(now.memory->signals);
+  }
   // Other rigid rows, as stops and locks, go on as they stand.
   std::vector<dynamics::SystemRow> others;
   for (std::size_t k = 0; k < now.soft.rows.size(); ++k) {
@@ -180,7 +184,7 @@ void ContactCones::hold_over(const Instant& now, double span, RigidRows& rigid) 
 }
 
 bool ContactCones::sticks(const Place& place, double load, const Vector& along, double speed) {
-  const auto& data = place.law->data();
+  const loads::ContactFrictionData& data = place.data;
   return !(along.norm() > 0.0) || speed <= data.at_rest ||
          along.norm() < (1.0 - kInside) * data.dynamic_coefficient * load;
 }

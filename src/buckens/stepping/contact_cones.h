@@ -55,9 +55,10 @@ class ContactCones {
   /// One place: its row across and those along, which follow it.
   struct Place {
     const loads::ContactFriction* law;
-    int across = 0;  ///< rigid row
-    int soft = 0;    ///< the same among the soft rows
-    int count = 1;   ///< of directions
+    int across = 0;                        ///< rigid row
+    int soft = 0;                          ///< the same among the soft rows
+    int count = 1;                         ///< of directions
+    loads::ContactFrictionData data = {};  ///< of the instant
   };
   /// What a place has in the iteration.
   struct Now {

@@ -160,6 +160,7 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
   shares_.clear();
   loss_ = 0;
   count_ = 0;
+  signals_ = dynamics::signals_of(around);
   bool is_struck = false;
   for (std::size_t k = 0; k < laws_.size(); ++k)
     is_struck = look(k, around, motions, t) || is_struck;
@@ -232,7 +233,7 @@ Vector Impacts::solve(const linalg::SparseMatrix& D) const {
       square += slips_[m].at_impact * slips_[m].at_impact;
     }
     slips.push_back({across, static_cast<Eigen::Index>(touches_.size() + k), 1,
-                     friction_of(slips_[k]).law->data().coefficient(std::sqrt(square))});
+                     friction_of(slips_[k]).law->data_at(signals_).coefficient(std::sqrt(square))});
   }
   return solve_impact(D, b, static_cast<Eigen::Index>(touches_.size()), slips);
 }
@@ -282,7 +283,7 @@ bool Impacts::look(std::size_t index, const dynamics::Circumstances& around,
   touch.gap = contact.gap;
   if (strikes) {
     set_approach(touch, *law.law, law.start, sight.coordinate, sign, contact.gap);
-    const double e = law.law->restitution(-touch.rate);
+    const double e = law.law->restitution(-touch.rate, signals_);
     if (e > 0.0 && moves_mesh(law)) {
       // What has turned round within the step has nothing yet that could be reflected.
       if (!(sign * law.start.rate < 0.0)) return false;
@@ -419,7 +420,7 @@ void Impacts::set_approach(Touch& touch, const loads::RigidLaw& law,
   const double s = instant_of(gap_start, rate_start, gap, rate_end, scheme_.h);
   touch.approach = std::max(0.0, -rate_at(s, gap_start, rate_start, gap, rate_end, scheme_.h));
   touch.rest = touch.since = (1.0 - s) * scheme_.h;
-  const double e = law.restitution(touch.approach);
+  const double e = law.restitution(touch.approach, signals_);
   touch.met = -touch.approach;
   touch.target = (1.0 + e) * touch.approach;
   // What returns within the step that it left in, or would not leave at all, stays.
@@ -566,7 +567,7 @@ double Impacts::weight_returns(const Touch& touch) const {
   const model::Load& load = model_.loads[laws_[touch.law].load];
   const bool is_angle =
       model_.coordinates[static_cast<std::size_t>(load.coordinate)].law.is_angle();
-  return is_angle ? 0.0 : model_.gravity.norm() * scheme_.h;
+  return is_angle ? 0.0 : dynamics::gravity_at(model_, signals_).norm() * scheme_.h;
 }
 
 /// Whether bodies that stay together stick or slide.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "buckens/dynamics/circumstances.h"
@@ -172,6 +173,7 @@ class Impacts {
 
   const model::Model& model_;
   Scheme scheme_;
+  std::span<const double> signals_;  // of the step looked at last
   std::vector<const BodyAnswer*> answers_;
   std::vector<Law> laws_;
   bool is_rough_ = false;                    // any of them has friction

@@ -15,7 +15,9 @@
 #include "buckens/dynamics/energy.h"
 #include "buckens/dynamics/signals.h"
 #include "buckens/dynamics/travel.h"
+#include "buckens/loads/contact.h"
 #include "buckens/loads/rigid_law.h"
+#include "buckens/model/check/event_parameters.h"
 
 namespace buckens::analysis {
 
@@ -54,11 +56,12 @@ EventActions::Effect EventActions::apply(const model::EventSpec& event,
                                          model::State& state) const {
   const model::Model& model = built_.model;
   Effect out;
-  const double stored = dynamics::energy(model, state).springs;
+  const dynamics::Energy before = dynamics::energy(model, state);
   set_signals(event, state);
   switch_loads(event.switch_on, true, state);
   switch_loads(event.switch_off, false, state);
-  out.gained = dynamics::energy(model, state).springs - stored;
+  const dynamics::Energy after = dynamics::energy(model, state);
+  out.gained = after.springs - before.springs + (after.gravity - before.gravity);
   for (const std::string& joint : event.release) release_joint(joint, state);
   for (const std::string& joint : event.attach) attach_joint(joint, event, state);
   bool has_locked = !event.attach.empty();
@@ -96,13 +99,37 @@ void EventActions::follow_signals(const std::vector<dynamics::StateChange>& chan
 void EventActions::set_signals(const model::EventSpec& event, model::State& state) const {
   if (event.changes.empty()) return;
   std::vector<dynamics::StateChange> changes;
-  for (const model::SettingChange& change : event.changes) {
+  const auto set = [&](const std::string& name, const base::SignalLaw& law) {
     for (const model::Signal& signal : built_.model.signals.all) {
-      if (signal.name != change.name) continue;
-      changes.push_back({signal.first_state, change.value.value(state.t, state.memory.signals)});
+      if (signal.name != name) continue;
+      changes.push_back({signal.first_state, law.value(state.t, state.memory.signals)});
     }
+  };
+  for (const model::SettingChange& change : event.changes) {
+    if (change.value) set(change.name, *change.value);
+    if (!change.vector) continue;
+    for (std::size_t k = 0; k < 3; ++k) set(model::kGravitySettings[k], (*change.vector)[k]);
   }
   follow_signals(changes, state);
+  strain_contacts(state);
+}
+
+/// Where friction of an elastic contact gives less, strains that it holds are less from now on, not
+/// from the next step on: that would lose them twice.
+void EventActions::strain_contacts(model::State& state) const {
+  const model::Model& model = built_.model;
+  const auto motions = dynamics::motions_of(model, state);
+  for (std::size_t k = 0; k < model.loads.size(); ++k) {
+    const model::Load& load = model.loads[k];
+    const auto* contact = dynamic_cast<const loads::Contact*>(load.element.get());
+    if (contact == nullptr || !contact->is_changed() || state.memory.is_off(k)) continue;
+    const dynamics::LoadEnds ends = dynamics::ends_of(model, load, motions, &state.memory);
+    linalg::Vector states(contact->num_states());
+    contact->find_states(
+        dynamics::sight_of(model, k, state.t, dynamics::circumstances_of(state), ends),
+        states.data());
+    state.memory.laws.segment(load.first_state, states.size()) = states;
+  }
 }
 
 void EventActions::switch_loads(const std::vector<std::string>& names, bool on,

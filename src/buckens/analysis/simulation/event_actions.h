@@ -25,8 +25,8 @@ class EventActions {
 
   /// What it has done to the energy.
   struct Effect {
-    /// By springs that were switched on or changed, less those switched off, and by joints that
-    /// were closed the last bit [J].
+    /// By springs that were switched on or changed, less those switched off, by weights as gravity
+    /// changed, and by joints that were closed the last bit [J].
     double gained = 0;
     double lost = 0;  ///< when moving joints were locked [J]
   };
@@ -41,6 +41,7 @@ class EventActions {
 
  private:
   void set_signals(const model::EventSpec& event, model::State& state) const;
+  void strain_contacts(model::State& state) const;
   void follow_signals(const std::vector<dynamics::StateChange>& changes, model::State& state) const;
   void switch_loads(const std::vector<std::string>& names, bool on, model::State& state) const;
   bool hold_joint(const std::string& name, bool is_held, model::State& state) const;

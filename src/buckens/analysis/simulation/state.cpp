@@ -175,6 +175,12 @@ void SimulationRun::set_signal(const std::string& name, double value) {
                     "`setting` can be set",
                     name));
   }
+  if (name.starts_with("gravity.")) {
+    throw InputError(
+        fmt::format("\"{}\" is a component of gravity, which events change as a whole; let an "
+                    "event set it by formulas of other settings",
+                    name));
+  }
   if (!std::isfinite(value)) {
     throw InputError(fmt::format("signal \"{}\": its value {} is not finite", name, value));
   }

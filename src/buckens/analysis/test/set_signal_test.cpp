@@ -58,5 +58,28 @@ TEST(SetSignal, AMotorFollowsASettingThatIsSet) {
               ThrowsMessage<InputError>(HasSubstr("Did you mean \"command\"?")));
 }
 
+TEST(SetSignal, LeavesGravityToEvents) {
+  Described m;
+  m.rigid("stone", 1, {0, 0, 0}, {0, 0, 0.5});
+  m.d.simulation.emplace();
+  m.d.simulation->duration = 1;
+  m.d.simulation->step = 0.01;
+  model::SignalSpec height;
+  height.name = "height";
+  height.value.emplace(1.0);
+  m.d.signals.push_back(height);
+  model::EventSpec event;
+  event.name = "lands";
+  event.when = "height";
+  model::SettingChange& change = event.changes.emplace_back();
+  change.name = "gravity";
+  change.vector.emplace();
+  m.d.events.push_back(event);
+  const auto built = m.build();
+  Simulation simulation(*built);
+  EXPECT_THAT([&] { simulation.set_signal("gravity.2", 1); },
+              ThrowsMessage<InputError>(HasSubstr("\"gravity.2\" is a component of gravity")));
+}
+
 }  // namespace
 }  // namespace buckens::analysis

@@ -159,7 +159,8 @@ class ContactBuilder {
     law.modulus = spec_.modulus;
     if (spec_.poisson) law.poisson = *spec_.poisson;
     load_.element = std::make_shared<loads::Contact>(
-        pair, loads::contact_data(law, pair, reduced_mass(), find_.model().gravity.norm()));
+        pair, loads::contact_data(law, pair, reduced_mass(), find_.model().gravity.norm()),
+        spec_.settings);
   }
 
   std::vector<spatial::RigidTouch> touches(const loads::ContactPair& pair) const {
@@ -169,10 +170,11 @@ class ContactBuilder {
   }
 
   void set_rigid(const loads::ContactPair& pair) {
+    RigidPairLaw law = rigid_pair_law(spec_);
+    law.settings = spec_.settings;
     Load like = load_;
     like.shapes = nullptr;  // drawn once
-    for (RigidContactRow& row :
-         rigid_contact_rows(like, touches(pair), rigid_pair_law(spec_), size_)) {
+    for (RigidContactRow& row : rigid_contact_rows(like, touches(pair), law, size_)) {
       row.load.coordinate = static_cast<int>(find_.model().coordinates.size());
       find_.model().coordinates.push_back(std::move(row.coordinate));
       behind_.push_back(std::move(row.load));

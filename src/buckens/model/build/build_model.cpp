@@ -71,6 +71,7 @@ class Builder {
       if (is_coupler(joint)) add_joint(joint, find);
     }
     add_signals(d, find);
+    find_gravity_settings(d);
     add_drives(d, model_);
     for (const loads::LoadSpec& load : d.loads) {
       if (!DistributedLoads::takes(load) && !is_joint_law(load)) add_load(load, find);
@@ -111,6 +112,12 @@ class Builder {
   }
 
  private:
+  void find_gravity_settings(const ModelDescription& d) {
+    for (std::size_t k = 0; k < d.signals.size(); ++k) {
+      if (d.signals[k].name == kGravitySettings[0]) model_.gravity_settings = static_cast<int>(k);
+    }
+  }
+
   // ---- bodies
   void add_bodies() {
     const auto& specs = out_->description.bodies;

@@ -39,11 +39,11 @@ std::vector<RigidContactRow> rigid_contact_rows(const Load& like,
   const double threshold = law.threshold.value_or(loads::RigidStop::kAtRest * size);
   for (const spatial::RigidTouch& touch : touches) {
     add(touch, Direction::across,
-        std::make_shared<loads::ContactStop>(touch, law.restitution, threshold));
+        std::make_shared<loads::ContactStop>(touch, law.restitution, threshold, law.settings));
     if (law.static_coefficient == 0.0) continue;
     for (int k = 0; k < touch.num_directions(); ++k) {
       add(touch, k == 0 ? Direction::along : Direction::other_along,
-          std::make_shared<loads::ContactFriction>(touch, friction, k));
+          std::make_shared<loads::ContactFriction>(touch, friction, k, law.settings));
     }
   }
   return out;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/nearest.h"
+#include "buckens/loads/contact_law.h"
 #include "buckens/loads/contact_pair.h"
 #include "buckens/model/check/marker_names.h"
 
@@ -15,10 +16,8 @@ namespace buckens::model {
 
 namespace {
 
+using loads::kLeastElasticRestitution;
 using loads::ShapeSpec;
-
-// Below it the loss would have to act within the first thousandth of the overlap.
-constexpr double kLeastElasticRestitution = 0.01;
 
 template <class Shape>
 const Shape* get(const ShapeSpec& shape) {

@@ -72,6 +72,18 @@ Found problem(const SwitchSpec& spec, const ModelDescription&) {
 
 namespace {
 
+/// All but gravity is one number.
+Found value_problem(const SettingChange& change) {
+  const std::string path = "set." + change.name;
+  if (change.value.has_value() == change.vector.has_value()) {
+    return Finding{path,
+                   "give either `value`, a number or formula, or for gravity `vector`, three of "
+                   "them"};
+  }
+  if (change.name == "gravity" || !change.vector) return std::nullopt;
+  return Finding{path, "only gravity is given three values; give one number or formula"};
+}
+
 /// The settings that an event changes.
 Found changes_problem(const EventSpec& spec, const ModelDescription& model) {
   std::vector<std::string> settings;
@@ -79,6 +91,7 @@ Found changes_problem(const EventSpec& spec, const ModelDescription& model) {
     if (signal.setting) settings.push_back(signal.name);
   }
   for (const SettingChange& change : spec.changes) {
+    if (Found found = value_problem(change)) return found;
     if (names_parameter(change)) {
       if (Found found = parameter_problem(change, model)) return found;
       continue;
@@ -89,6 +102,10 @@ Found changes_problem(const EventSpec& spec, const ModelDescription& model) {
                      fmt::format("signal \"{}\" follows from the motion; only signals with a "
                                  "`setting` can be set",
                                  change.name)};
+    }
+    if (change.name == "gravity") {
+      return Finding{"set.gravity",
+                     "gravity has three components; give for example [0, -1.62 m/s^2, 0]"};
     }
     return Finding{"set", fmt::format("unknown signal \"{}\".{}", change.name,
                                       base::suggestion(change.name, settings))};

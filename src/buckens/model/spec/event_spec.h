@@ -23,20 +23,26 @@ enum class EventAction { note, stop };
 
 constexpr std::array<const char*, 2> choice_names(EventAction) { return {"note", "stop"}; }
 
-/// The value that a signal with a `setting`, or a parameter of a force law, is given.
+/// The value that a signal with a `setting`, a parameter of a force law or gravity is given.
 struct SettingChange {
   static constexpr bool kHasForeignName = true;  ///< "loads.damper.damping"
   std::string name;
   SourceLocation where;
-  base::SignalLaw value;
+  std::optional<base::SignalLaw> value;                  ///< of all but gravity
+  std::optional<std::array<base::SignalLaw, 3>> vector;  ///< of gravity
 
   template <class Visitor>
   void fields(Visitor& visit) {
     visit(base::field("value", value, "number, or formula of t and signals at that instant")
               .of_any_dimension()
-              .required()
               .shorthand()
-              .like("\"0.5*angle\""));
+              .like("\"0.5*angle\"")
+              .otherwise("`vector`"));
+    visit(base::field("vector", vector, "three of them, of `gravity`")
+              .of_any_dimension()
+              .shorthand()
+              .like("[0, 0, -1.62 m/s^2]")
+              .otherwise("`value`"));
   }
 };
 
@@ -71,9 +77,11 @@ struct EventSpec {
     visit(base::field("do", action,
                       "`note` the time in the summary of the run, or note it and `stop`"));
     visit(base::field("set", changes,
-                      "new values of signals with a `setting`, and of parameters of springs, "
-                      "dampers, friction in joints, motors and brakes")
-              .like("{target: 0.5, gain: \"2*gain\", loads.damper.damping: 20 N s/m}"));
+                      "new values of signals with a `setting`, of parameters of springs, dampers, "
+                      "friction in joints, motors, brakes and contacts of two bodies, and of "
+                      "`gravity`")
+              .like("{target: 0.5, gain: \"2*gain\", loads.damper.damping: 20 N s/m, gravity: "
+                    "[0, 0, -1.62 m/s^2]}"));
     visit(base::field("switch-on", switch_on, "loads, springs, motors … that act from now on")
               .like("[motor]"));
     visit(base::field("switch-off", switch_off, "loads, springs, motors … that no longer act")

@@ -99,7 +99,9 @@ TEST(FunctionSignal, EventsMayNotSetWhatAFunctionGives) {
   EventSpec event;
   event.name = "far";
   event.when = "angle";
-  event.changes.emplace_back().name = "command";
+  SettingChange& change = event.changes.emplace_back();
+  change.name = "command";
+  change.value = 1.0;
   m.d.events.push_back(event);
   const auto built = m.build();
   EXPECT_THAT(

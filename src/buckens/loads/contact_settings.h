@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+namespace buckens::loads {
+
+struct ContactData;
+struct ContactFrictionData;
+
+/// Numbers of a contact that events change: where their values are among t and those of all
+/// signals. 0, the place of t: it stays as the model says. Without values all of them do.
+/// What was derived from them as the model was built, thresholds and the stiffness of sticking,
+/// stays as well.
+struct ContactSettings {
+  int stiffness = 0;
+  int restitution = 0;
+  int damping = 0;
+  int static_coefficient = 0;
+  int dynamic_coefficient = 0;  ///< where it stays, it is at most the other one
+
+  /// Whether friction or what acts across the surface changes.
+  bool any() const { return changes_across() || changes_friction(); }
+  bool changes_across() const { return stiffness > 0 || restitution > 0 || damping > 0; }
+  bool changes_friction() const { return static_coefficient > 0 || dynamic_coefficient > 0; }
+
+  /// @param signals t and the values of all signals
+  void put(std::span<const double> signals, ContactData& data) const;
+  void put(std::span<const double> signals, ContactFrictionData& data) const;
+  /// @param otherwise the restitution where it stays
+  double restitution_at(std::span<const double> signals, double otherwise) const;
+};
+
+}  // namespace buckens::loads
