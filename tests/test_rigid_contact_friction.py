@@ -345,3 +345,28 @@ output: {every: 2 ms, sensors: {a: {position: a}, b: {position: b}, c: {position
         # Rounding may put one of them down a step later, and the next step closes what that opens.
         assert numpy.abs(out[f"{body}.z"] - height)[3:].max() < 1e-12
         assert out[f"{under}.normal"][3:] == pytest.approx(load * G, rel=1e-9)
+
+
+PINNED = """
+buckens: 1
+gravity: [0, 0, -9.81]
+bodies: {arm: {rigid: {mass: 1 kg, inertia: [0.01, 0.01, 0.01]}, at: {position: [0.4, 0, 0.12]}, markers: {pin: {position: [-0.4, 0, 0.45]}}}}
+joints: {pin: {revolute: {between: [{ground: [0, 0, 0.57]}, arm/pin], axis: [0, 1, 0]}}}
+loads: {c: {contact: {between: [ground, arm], shapes: [{plane: {}}, {sphere: 0.1}], restitution: 0.5, static: MU}}}
+simulation: {duration: 0.3 s, step: 0.5 ms}
+output: {every: 0.5 ms, sensors: {p: {position: arm}, v: {velocity: arm}, lost: {energy: dissipated}, balance: {energy: balance}}}
+"""
+
+
+@pytest.mark.parametrize("friction", [1.4, 0.9, 0.2])
+def test_a_pendulum_that_friction_holds_does_not_bounce(sensors, friction):
+    """It strikes with one way to move; beyond 0.7, the ratio of the arms about the pin, friction holds all that would part."""
+    out = sensors(PINNED.replace("MU", str(friction)))
+    struck = numpy.argmax(out["lost"] > 0)
+    before = 9.81 * (0.12 - out["p.z"][struck])
+    assert numpy.abs(out["balance"]).max() < 1e-3 * before
+    if friction < 0.7:
+        assert 0.2 * before < out["lost"][struck] < 0.9 * before and out["v.z"][struck:].max() > 0.1
+        return
+    assert out["lost"][-1] == pytest.approx(9.81 * 0.02, rel=1e-2)  # it stops within half a step's way of the floor
+    assert numpy.abs(out["v.z"][struck + 2:]).max() < 1e-9

@@ -26,12 +26,14 @@ constexpr double kRoundingOfRates = 1e-10;
 // Answers by this share of the largest answer of all.
 constexpr double kNoAnswerOfPlace = 1e-12;
 constexpr int kMostNewtonRounds = 12;
-constexpr int kSweepsBetween = 20;        // place by place, between Newton's
-constexpr int kMostAgreements = 50;       // rounds of across and along
-constexpr int kMostSlipSweeps = 1000;     // over those along, per round
-constexpr int kMostSweeps = 500;          // place by place
-constexpr int kMostHalfSweeps = 2000;     // the same by half of each change
-constexpr int kMostBlows = 10000;         // in turn
+constexpr int kSweepsBetween = 20;     // place by place, between Newton's
+constexpr int kMostAgreements = 50;    // rounds of across and along
+constexpr int kMostSlipSweeps = 1000;  // over those along, per round
+constexpr int kMostSweeps = 500;       // place by place
+constexpr int kMostHalfSweeps = 2000;  // the same by half of each change
+constexpr int kMostBlows = 10000;      // in turn
+// What impulses do by that of all together: beyond it, half of the digits are lost.
+constexpr double kMostCancelled = 1e8;
 constexpr Eigen::Index kMostDense = 150;  // rows; more of them as a sparse system
 
 /// The places that are struck, each with its rows: across, then along.
@@ -178,6 +180,13 @@ class Places {
   std::vector<Place> places_;
 };
 
+/// Whether what impulses do cancels out to more digits than they have: rows that hold the same, and
+/// friction that jams.
+bool do_cancel(const Matrix& D, const Vector& b, const Vector& P) {
+  const double size = (D.cwiseAbs() * P.cwiseAbs()).maxCoeff();
+  return !(size <= kMostCancelled * b.cwiseAbs().maxCoeff());
+}
+
 Vector solve_together(const Matrix& D, const Vector& b, Eigen::Index num_across,
                       const std::vector<ImpactSlip>& slips) {
   const auto across = Eigen::seqN(Eigen::Index{0}, num_across);
@@ -191,19 +200,20 @@ Vector solve_together(const Matrix& D, const Vector& b, Eigen::Index num_across,
   const Places places(D, b, num_across, slips);
   Vector P = smooth;
   const std::vector<ConeRows> rows = places.rows();
+  const auto is_good = [&](const Vector& found) { return !do_cancel(D, b, found); };
   for (int round = 0; round < kMostNewtonRounds; ++round) {
-    if (find_by_newton(D, b, rows, P)) return P;
+    if (find_by_newton(D, b, rows, P) && is_good(P)) return P;
     // Sweeps bring it on.
-    if (round == 0 || !P.allFinite()) P = smooth;
-    if (places.settle(P, round % 2 == 0 ? 1.0 : 0.5, kSweepsBetween)) return P;
+    if (round == 0 || !is_good(P)) P = smooth;
+    if (places.settle(P, round % 2 == 0 ? 1.0 : 0.5, kSweepsBetween) && is_good(P)) return P;
   }
   P = smooth;
-  if (places.agree(P)) return P;
+  if (places.agree(P) && is_good(P)) return P;
   P = smooth;
-  if (places.settle(P, 1.0, kMostSweeps)) return P;
+  if (places.settle(P, 1.0, kMostSweeps) && is_good(P)) return P;
   P = smooth;
-  if (places.settle(P, 0.5, kMostHalfSweeps)) return P;
-  if (places.strike_in_turn(P)) return P;
+  if (places.settle(P, 0.5, kMostHalfSweeps) && is_good(P)) return P;
+  if (places.strike_in_turn(P) && is_good(P)) return P;
   throw StepFailure(
       "no impulses satisfy all rigid contacts with friction that are struck at once: friction "
       "jams; give the contact a `stiffness`, or less `static`");
@@ -284,7 +294,7 @@ std::vector<ConeRows> cones_of(Eigen::Index num_across, const std::vector<Impact
 }  // namespace
 
 Vector solve_impact(const linalg::SparseMatrix& D, const Vector& b, Eigen::Index num_across,
-                    const std::vector<ImpactSlip>& slips) {
+                    const std::vector<ImpactSlip>& slips, std::vector<Eigen::Index>* jammed) {
   if (slips.empty() && D.rows() <= kMostDense) {
     return solve_together(Matrix(D), b, num_across, slips);
   }
@@ -302,9 +312,15 @@ Vector solve_impact(const linalg::SparseMatrix& D, const Vector& b, Eigen::Index
     }
     const linalg::SparseMatrix part = part_of(D, group);
     const Eigen::Index across = place_of(num_across);
-    P(group) = part.rows() <= kMostDense
-                   ? solve_together(Matrix(part), b(group), across, own)
-                   : solve_large_impact(part, b(group), cones_of(across, own));
+    try {
+      P(group) = part.rows() <= kMostDense
+                     ? solve_together(Matrix(part), b(group), across, own)
+                     : solve_large_impact(part, b(group), cones_of(across, own));
+    } catch (const StepFailure&) {
+      if (jammed == nullptr) throw;
+      jammed->insert(jammed->end(), group.begin(), group.end());
+      P(group).setZero();
+    }
   }
   return P;
 }

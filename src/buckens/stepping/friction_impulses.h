@@ -30,9 +30,12 @@ struct ImpactSlip {
 /// stepping/large_impact.h.
 /// @param D of all rows, positive semidefinite, @param b of slips: minus the speed of slip before
 /// @param num_across number of one-sided rows
+/// @param jammed takes the rows of places whose impulses are left out since friction holds what b
+/// would part: no finite impulses do both. Null: that is an error
 /// @throws StepFailure if they do not come to an agreement: friction that jams
 linalg::Vector solve_impact(const linalg::SparseMatrix& D, const linalg::Vector& b,
-                            Eigen::Index num_across, const std::vector<ImpactSlip>& slips);
+                            Eigen::Index num_across, const std::vector<ImpactSlip>& slips,
+                            std::vector<Eigen::Index>* jammed = nullptr);
 linalg::Vector solve_impact(const linalg::Matrix& D, const linalg::Vector& b,
                             Eigen::Index num_across, const std::vector<ImpactSlip>& slips);
 

@@ -12,6 +12,7 @@
 #include "buckens/dynamics/mass_metric.h"
 #include "buckens/spatial/rotation.h"
 #include "buckens/stepping/friction_impulses.h"
+#include "buckens/stepping/gap_of_step.h"
 #include "buckens/stepping/mesh_partners.h"
 #include "buckens/stepping/step_failure.h"
 
@@ -22,62 +23,14 @@ using linalg::Vector;
 
 namespace {
 
-constexpr int kBisections = 60;
 // What comes with less than this share of the energy that it has at the end of the step does not
 // strike: it is pressed there from the beginning.
 constexpr double kPressed = 0.5;
 // Share of a slip below which what is left of it is rounding.
 constexpr double kStopped = 1e-9;
-// A gap at the start of the step that is no more than this share of what it ends with is none.
-constexpr double kOnTheEnd = 1e-6;
 // A rate at the instant of the impact that differs from that at the end of the step by more than
 // this share is that of another place.
 constexpr double kSamePlace = 0.1;
-// Beyond both rates, and their difference, by this share of the larger one the mean rate of a step
-// cannot be.
-constexpr double kOtherRate = 0.5;
-
-/// Part of a step after which the cubic through gaps and rates at both ends goes below zero for
-/// good, 0 … 1.
-double instant_of(double gap_start, double rate_start, double gap_end, double rate_end, double h) {
-  const auto gap = [&](double s) {
-    const double r = 1.0 - s;
-    return r * r * ((1.0 + 2.0 * s) * gap_start + s * h * rate_start) +
-           s * s * ((1.0 + 2.0 * r) * gap_end - r * h * rate_end);
-  };
-  // From the end backwards to where the gap was open.
-  double open = 1.0;
-  constexpr int kLooks = 16;
-  for (int k = kLooks - 1; k >= 0; --k) {
-    open = static_cast<double>(k) / kLooks;
-    if (gap(open) > 0.0) break;
-    // It never was: it began on the end, or nothing is left of the step to be made good.
-    if (k == 0) return gap_start >= kOnTheEnd * gap_end ? 0.0 : 1.0;
-  }
-  double closed = open + 1.0 / kLooks;
-  for (int k = 0; k < kBisections; ++k) {
-    const double middle = 0.5 * (open + closed);
-    (gap(middle) > 0.0 ? open : closed) = middle;
-  }
-  return closed;
-}
-
-double rate_at(double s, double gap_start, double rate_start, double gap_end, double rate_end,
-               double h) {
-  const double r = 1.0 - s;
-  return 6.0 * s * r * (gap_end - gap_start) / h + r * (1.0 - 3.0 * s) * rate_start +
-         s * (3.0 * s - 2.0) * rate_end;
-}
-
-/// Whether the gap has changed over the step by clearly other than its rates allow: then its place
-/// at the start is another one than at the end, as where an edge takes over from a face.
-bool is_elsewhere(double gap_start, double rate_start, double gap_end, double rate_end, double h) {
-  const double mean = (gap_end - gap_start) / h;
-  const double most = std::max(std::abs(rate_start), std::abs(rate_end));
-  const double apart = std::abs(rate_end - rate_start) + kOtherRate * most;
-  return mean < std::min(rate_start, rate_end) - apart ||
-         mean > std::max(rate_start, rate_end) + apart;
-}
 
 double rate_of(const dynamics::SystemRow& row, const std::vector<dynamics::BodyMotion>& motions) {
   double sum = 0;
@@ -101,7 +54,7 @@ Impacts::Impacts(const model::Model& model, const Scheme& scheme,
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     if (model.loads[k].rigid_row < 0) continue;
     const auto* law = static_cast<const loads::RigidLaw*>(model.loads[k].element.get());
-    if (law->contact(0.0).regime != 0) laws_.push_back({k, law, {}, {}});
+    if (law->contact(0.0).regime != 0) laws_.push_back({k, law, {}, {}, true});
     const auto* friction = dynamic_cast<const loads::ContactFriction*>(law);
     if (friction == nullptr) continue;
     laws_.back().frictions.push_back({k, friction});
@@ -147,7 +100,10 @@ loads::CoordinateMotion motion_of(const model::Model& model, const model::Load& 
 
 void Impacts::start(const std::vector<dynamics::BodyMotion>& motions,
                     const model::RowMemory& memory) {
-  for (Law& law : laws_) law.start = motion_of(model_, model_.loads[law.load], motions, memory);
+  for (Law& law : laws_) {
+    law.start = motion_of(model_, model_.loads[law.load], motions, memory);
+    law.bounces = true;
+  }
   if (is_rough_) start_ = motions;
 }
 
@@ -196,17 +152,41 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
       add_slips(k, touches_[k].is_elsewhere ? motions : there, around.memory);
     });
   }
+  return strike(then, rows_in_use, around.memory, t) ||
+         find(motions, bodies, rows_in_use, around, t);
+}
+
+bool Impacts::strike(const std::vector<dynamics::BodyMotion>& then,
+                     const std::vector<int>& rows_in_use, const model::RowMemory* memory,
+                     double t) {
   try {
     const linalg::SparseMatrix D = answers();
-    const Vector P = solve(D);
+    std::vector<Eigen::Index> jammed;
+    Vector P = solve(D, &jammed);
+    if (!jammed.empty()) {
+      if (stop_bouncing(jammed)) return false;
+      P = solve(D, nullptr);  // says what cannot be solved
+    }
     move_bodies(P);
     land(P, D * P);
-    clear_ends(P, then, rows_in_use, around.memory, t);
+    clear_ends(P, then, rows_in_use, memory, t);
   } catch (const StepFailure& failure) {
     const std::string& name = model_.loads[laws_[touches_.front().law].load].name;
     throw StepFailure(fmt::format("load \"{}\" at t = {:.6g} s: {}", name, t, failure.what()));
   }
   return true;
+}
+
+bool Impacts::stop_bouncing(const std::vector<Eigen::Index>& rows) {
+  bool is_news = false;
+  for (const Eigen::Index row : rows) {
+    if (row >= std::ssize(touches_)) continue;
+    const Touch& touch = touches_[static_cast<std::size_t>(row)];
+    bool& bounces = laws_[touch.law].bounces;
+    is_news = is_news || (bounces && !touch.stays);
+    bounces = false;
+  }
+  return is_news;
 }
 
 linalg::SparseMatrix Impacts::answers() const {
@@ -215,7 +195,7 @@ linalg::SparseMatrix Impacts::answers() const {
   return PushAnswers::along_all(pushes);
 }
 
-Vector Impacts::solve(const linalg::SparseMatrix& D) const {
+Vector Impacts::solve(const linalg::SparseMatrix& D, std::vector<Eigen::Index>* jammed) const {
   Vector b(static_cast<Eigen::Index>(num_pushes()));
   for (std::size_t row = 0; row < num_pushes(); ++row) {
     b[static_cast<Eigen::Index>(row)] =
@@ -235,7 +215,7 @@ Vector Impacts::solve(const linalg::SparseMatrix& D) const {
     slips.push_back({across, static_cast<Eigen::Index>(touches_.size() + k), 1,
                      friction_of(slips_[k]).law->data_at(signals_).coefficient(std::sqrt(square))});
   }
-  return solve_impact(D, b, static_cast<Eigen::Index>(touches_.size()), slips);
+  return solve_impact(D, b, static_cast<Eigen::Index>(touches_.size()), slips, jammed);
 }
 
 /// Adds the directions in which friction of a stop that is reached acts.
@@ -282,8 +262,8 @@ bool Impacts::look(std::size_t index, const dynamics::Circumstances& around,
   touch.rate = sign * sight.coordinate.rate;
   touch.gap = contact.gap;
   if (strikes) {
-    set_approach(touch, *law.law, law.start, sight.coordinate, sign, contact.gap);
-    const double e = law.law->restitution(-touch.rate, signals_);
+    set_approach(touch, law, sight.coordinate, sign, contact.gap);
+    const double e = restitution(law, -touch.rate);
     if (e > 0.0 && moves_mesh(law)) {
       // What has turned round within the step has nothing yet that could be reflected.
       if (!(sign * law.start.rate < 0.0)) return false;
@@ -406,25 +386,27 @@ void Impacts::set_row(std::size_t index, double sign,
   }
 }
 
-void Impacts::set_approach(Touch& touch, const loads::RigidLaw& law,
-                           const loads::CoordinateMotion& start, const loads::CoordinateMotion& end,
+double Impacts::restitution(const Law& law, double approach) const {
+  return law.bounces ? law.law->restitution(approach, signals_) : 0.0;
+}
+
+void Impacts::set_approach(Touch& touch, const Law& law, const loads::CoordinateMotion& end,
                            double sign, double gap) const {
   const double rate_end = sign * end.rate;
-  double gap_start = gap - sign * end.change;
-  double rate_start = sign * start.rate;
+  GapOfStep way{gap - sign * end.change, sign * law.start.rate, gap, rate_end, scheme_.h};
   // Of another place than at the end: it comes as fast as it is there.
-  if (is_elsewhere(gap_start, rate_start, gap, rate_end, scheme_.h)) {
-    gap_start = gap - scheme_.h * rate_end;
-    rate_start = rate_end;
+  if (way.begins_elsewhere()) {
+    way.start = gap - scheme_.h * rate_end;
+    way.rate_start = rate_end;
   }
-  const double s = instant_of(gap_start, rate_start, gap, rate_end, scheme_.h);
-  touch.approach = std::max(0.0, -rate_at(s, gap_start, rate_start, gap, rate_end, scheme_.h));
+  const double s = way.closes_at();
+  touch.approach = std::max(0.0, -way.rate_at(s));
   touch.rest = touch.since = (1.0 - s) * scheme_.h;
-  const double e = law.restitution(touch.approach, signals_);
+  const double e = restitution(law, touch.approach);
   touch.met = -touch.approach;
   touch.target = (1.0 + e) * touch.approach;
   // What returns within the step that it left in, or would not leave at all, stays.
-  const bool has_just_left = rate_start > 0.0;
+  const bool has_just_left = way.rate_start > 0.0;
   touch.stays = e == 0.0 || has_just_left || rate_end + touch.target <= 0.0;
   if (!touch.stays) return;
   // It rests at the end of the step, and exactly there.

@@ -83,6 +83,7 @@ class Impacts {
     const loads::RigidLaw* law;
     loads::CoordinateMotion start{};
     std::vector<Friction> frictions;
+    bool bounces = true;  // friction does not hold what restitution would part in this step
   };
   /// A stop that is reached.
   struct Touch : Push {
@@ -149,9 +150,17 @@ class Impacts {
   std::size_t num_pushes() const { return touches_.size() + slips_.size(); }
   /// What each push does along the rows of all.
   linalg::SparseMatrix answers() const;
-  linalg::Vector solve(const linalg::SparseMatrix& D) const;
-  void set_approach(Touch& touch, const loads::RigidLaw& law, const loads::CoordinateMotion& start,
-                    const loads::CoordinateMotion& end, double sign, double gap) const;
+  /// Finds impulses and what they do. @return false where friction jams: to be looked for again
+  /// without the restitution that it does not admit
+  bool strike(const std::vector<dynamics::BodyMotion>& then, const std::vector<int>& rows_in_use,
+              const model::RowMemory* memory, double t);
+  /// @param jammed see solve_impact()
+  linalg::Vector solve(const linalg::SparseMatrix& D, std::vector<Eigen::Index>* jammed) const;
+  /// @return whether any of them would have bounced
+  bool stop_bouncing(const std::vector<Eigen::Index>& rows);
+  double restitution(const Law& law, double approach) const;
+  void set_approach(Touch& touch, const Law& law, const loads::CoordinateMotion& end, double sign,
+                    double gap) const;
   /// Where a mesh takes part, the impulse of what leaves again belongs to the step as a whole.
   /// @param e restitution, @param rate_start away from the end, negative
   void make_impulse_of_step(Touch& touch, double e, double rate_start) const;

@@ -29,6 +29,9 @@ constexpr double kFurthestTurn = 0.25;
 // it leads.
 constexpr std::size_t kLongChain = 20000;  // joints
 constexpr double kYield = 1e-13;
+// A gap is the rounding of two positions, five units of their last digit where it is at most the
+// inverse of this share of what an iteration leaves.
+constexpr double kFewRoundings = 2.0;
 
 }  // namespace
 
@@ -128,7 +131,7 @@ bool StrandStep::move(StepReport& report, Change& change) {
   }
   // A correction does not close the rounding of positions: it turns short links to and fro, and the
   // iteration with them.
-  if (ending_.is_rounding({gap, 0.0})) {
+  if (ending_.is_rounding({kFewRoundings * gap, 0.0})) {
     E_.setZero();
   } else {
     mechanism_.matrix().solve_in_place(E_);

@@ -43,6 +43,30 @@ TEST(FrictionImpulses, LeaveOutDirectionsThatGuidesHold) {
   EXPECT_NEAR((P - Eigen::Vector3d(8.0, -0.8, 0.0)).norm(), 0, 1e-13);
 }
 
+TEST(FrictionImpulses, TellWhereFrictionHoldsWhatRestitutionWouldPart) {
+  // A pendulum that strikes with one way to move: both rows are that way, by 1 and 1.5, and
+  // friction of 1.4 stops it before it could part.
+  const Eigen::Vector2d way(1.0, 1.5);
+  const Matrix D = 0.38 * way * way.transpose();
+  const Eigen::Vector2d stops = 0.4 * way;
+  const Eigen::Vector2d bounces = stops + Eigen::Vector2d(0.2, 0.0);
+  EXPECT_THROW(solve_impact(D, bounces, 1, {{0, 1, 1, 1.4}}), StepFailure);
+  const linalg::SparseMatrix sparse = D.sparseView();
+  std::vector<Eigen::Index> jammed;
+  EXPECT_EQ(solve_impact(sparse, bounces, 1, {{0, 1, 1, 1.4}}, &jammed).norm(), 0);
+  EXPECT_EQ(jammed, (std::vector<Eigen::Index>{0, 1}));
+  jammed.clear();
+  const Vector P = solve_impact(sparse, stops, 1, {{0, 1, 1, 1.4}}, &jammed);
+  EXPECT_TRUE(jammed.empty());
+  EXPECT_NEAR((D * P - stops).norm(), 0, 1e-13);
+  EXPECT_LE(std::abs(P[1]), 1.4 * P[0]);
+  EXPECT_LT(P.norm(), 10.0);
+  // With less friction it parts while it slides back: 0.38 (1 - 0.3 * 1.5) P = 0.6.
+  const Vector slides = solve_impact(sparse, bounces, 1, {{0, 1, 1, 0.3}});
+  EXPECT_NEAR(slides[0], 0.6 / (0.38 * 0.55), 1e-12);
+  EXPECT_NEAR(slides[1], -0.3 * slides[0], 1e-12);
+}
+
 TEST(FrictionImpulses, SatisfyCoulombAndOneSidedRows) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> between(-1, 1);
