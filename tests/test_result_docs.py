@@ -57,6 +57,12 @@ output:
 """
 
 
+# More bodies and joints than have data sets of their own: links side by side, each on the ground.
+MANY = 1600
+CROWD = "buckens: 1\nbodies:\n" + "".join(f"  b{k}: {{rigid: {{mass: 1, inertia: [1, 1, 1]}}}}\n" for k in range(MANY)) + "joints:\n" + "".join(
+    f"  j{k}: {{revolute: {{between: [ground, b{k}], axis: [0, 0, 1]}}}}\n" for k in range(MANY)) + "simulation: {duration: 1 ms, step: 1 ms}\noutput: {every: 1 ms}\n"
+
+
 def documented():
     """Patterns of the paths that run-directory.md lists, from the first cells of its tables."""
     paths, group = [], ""
@@ -126,13 +132,17 @@ def test_the_list_of_data_sets_is_that_of_the_files(buckens, readme_rod, tmp_pat
         buckens("run", str(SOURCE / "examples" / name / f"{name}.yaml"), "-o", name, "-q").must(0)
     surface = SOURCE / "examples" / "marble_bowl" / "marble_bowl.yaml"
     buckens("run", str(surface), "-o", "marbles", "-q", "--set", "simulation.duration=10 ms").must(0)
+    (tmp_path / "crowd.yaml").write_text(CROWD)
+    buckens("run", "crowd.yaml", "-o", "crowd", "-q").must(0)
     sets, groups = set(), set()
-    for run in ("rod", "everything", "modes", "path", "bouncing_dumbbell", "block_and_tackle", "marbles"):
+    for run in ("rod", "everything", "modes", "path", "bouncing_dumbbell", "block_and_tackle", "marbles", "crowd"):
         more, around = contents(tmp_path / run / "results.h5")
         sets |= more
         groups |= around
     patterns = documented()
     missing = sorted(name for name in sets if not any(pattern.match(name) for _, pattern in patterns))
     assert not missing, f"run-directory.md does not mention {missing}"
+    with h5py.File(tmp_path / "crowd" / "results.h5", "r", swmr=True) as file:
+        assert file["motions"].shape == (2, MANY, 13) and file["reactions"].shape == (2, MANY, 6)
     absent = [path for path, pattern in patterns if not any(map(pattern.match, sets | groups))]
     assert not absent, f"run-directory.md lists {absent}, which no file has"
