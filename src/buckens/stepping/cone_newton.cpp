@@ -61,25 +61,20 @@ class ConeEquations {
     A_.row(across) = D_.row(across);
     if (count == 0) return;
     const std::vector<Eigen::Index> along(place.rows.begin() + 1, place.rows.end());
-    const double most = place.coefficient * std::max(d * P[across], 0.0);
-    const Vector trial = d * P(along) - w(along);
-    const double size = trial.norm();
-    if (size <= most) {
+    const auto slide = sliding_cone(d * P(along) - w(along), place.coefficient, d * P[across]);
+    if (!slide) {
       F_(along) = w(along);
       A_(along, Eigen::all) = D_(along, Eigen::all);
       return;
     }
-    // d P_t = most · trial/|trial|
-    const Vector towards = trial / size;
-    F_(along) = d * P(along) - most * towards;
-    const Matrix turns =
-        (most / size) * (Matrix::Identity(count, count) - towards * towards.transpose());
-    Matrix rows = turns * D_(along, Eigen::all);
+    F_(along) = d * P(along) - slide->most * slide->towards;
+    Matrix rows = slide->turns * D_(along, Eigen::all);
     for (Eigen::Index m = 0; m < count; ++m) {
       for (Eigen::Index c = 0; c < count; ++c) {
-        rows(m, along[static_cast<std::size_t>(c)]) += d * ((m == c ? 1.0 : 0.0) - turns(m, c));
+        rows(m, along[static_cast<std::size_t>(c)]) +=
+            d * ((m == c ? 1.0 : 0.0) - slide->turns(m, c));
       }
-      rows(m, across) -= place.coefficient * d * towards[m];
+      rows(m, across) -= place.coefficient * d * slide->towards[m];
     }
     A_(along, Eigen::all) = rows;
   }
@@ -101,6 +96,17 @@ void let_go(const std::vector<ConeRows>& places, Vector& P) {
 }
 
 }  // namespace
+
+std::optional<SlidingCone> sliding_cone(const Vector& trial, double coefficient, double pressed) {
+  SlidingCone out;
+  out.most = coefficient * std::max(pressed, 0.0);
+  const double size = trial.norm();
+  if (size <= out.most) return std::nullopt;
+  out.towards = trial / size;
+  out.turns = (out.most / size) * (Matrix::Identity(trial.size(), trial.size()) -
+                                   out.towards * out.towards.transpose());
+  return out;
+}
 
 bool find_by_newton(const Matrix& D, const Vector& b, const std::vector<ConeRows>& places,
                     Vector& P) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "buckens/linalg/matrix_types.h"
@@ -12,6 +13,19 @@ struct ConeRows {
   std::vector<Eigen::Index> rows;
   double coefficient = 0;  ///< μ
 };
+
+/// How the force of a place slides along its cone: most · towards, of which `turns` is the
+/// derivative with respect to the force on trial.
+struct SlidingCone {
+  double most = 0;  ///< μ d P_n
+  linalg::Vector towards;
+  linalg::Matrix turns;
+};
+
+/// @param trial d P_t − w_t of a place that is pressed, @param pressed d P_n
+/// @return empty: the cone admits it, the place sticks
+std::optional<SlidingCone> sliding_cone(const linalg::Vector& trial, double coefficient,
+                                        double pressed);
 
 /// Newton's method on (I1) and (I2) of all places at once, by the projections of Alart and Curnier:
 /// a few solutions of a linear system where it converges, which it need not.

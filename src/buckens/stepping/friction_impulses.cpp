@@ -325,9 +325,4 @@ Vector solve_impact(const linalg::SparseMatrix& D, const Vector& b, Eigen::Index
   return P;
 }
 
-Vector solve_impact(const Matrix& D, const Vector& b, Eigen::Index num_across,
-                    const std::vector<ImpactSlip>& slips) {
-  return solve_impact(linalg::SparseMatrix(D.sparseView()), b, num_across, slips);
-}
-
 }  // namespace buckens::stepping

@@ -36,7 +36,5 @@ struct ImpactSlip {
 linalg::Vector solve_impact(const linalg::SparseMatrix& D, const linalg::Vector& b,
                             Eigen::Index num_across, const std::vector<ImpactSlip>& slips,
                             std::vector<Eigen::Index>* jammed = nullptr);
-linalg::Vector solve_impact(const linalg::Matrix& D, const linalg::Vector& b,
-                            Eigen::Index num_across, const std::vector<ImpactSlip>& slips);
 
 }  // namespace buckens::stepping

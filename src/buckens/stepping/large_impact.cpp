@@ -166,10 +166,8 @@ class ManyPlaces {
     const Eigen::Index count = std::ssize(place.rows) - 1;
     if (count == 0) return;
     const std::vector<Eigen::Index> along(place.rows.begin() + 1, place.rows.end());
-    const double most = place.coefficient * std::max(d * P[across], 0.0);
-    const Vector trial = d * P(along) - w(along);
-    const double size = trial.norm();
-    if (size <= most) {
+    const auto slide = sliding_cone(d * P(along) - w(along), place.coefficient, d * P[across]);
+    if (!slide) {
       F_(along) = w(along);
       for (const Eigen::Index row : along) {
         add_row_of_answers(row, row, 1.0);
@@ -177,18 +175,15 @@ class ManyPlaces {
       }
       return;
     }
-    const Vector towards = trial / size;
-    F_(along) = d * P(along) - most * towards;
-    const Matrix turns =
-        (most / size) * (Matrix::Identity(count, count) - towards * towards.transpose());
+    F_(along) = d * P(along) - slide->most * slide->towards;
     for (Eigen::Index m = 0; m < count; ++m) {
       const Eigen::Index row = along[static_cast<std::size_t>(m)];
       for (Eigen::Index c = 0; c < count; ++c) {
         const Eigen::Index other = along[static_cast<std::size_t>(c)];
-        add_row_of_answers(row, other, turns(m, c));
-        add(row, other, d * ((m == c ? 1.0 : 0.0) - turns(m, c)));
+        add_row_of_answers(row, other, slide->turns(m, c));
+        add(row, other, d * ((m == c ? 1.0 : 0.0) - slide->turns(m, c)));
       }
-      add(row, across, -place.coefficient * d * towards[m]);
+      add(row, across, -place.coefficient * d * slide->towards[m]);
     }
   }
 

@@ -29,8 +29,8 @@ constexpr double kFurthestTurn = 0.25;
 // it leads.
 constexpr std::size_t kLongChain = 20000;  // joints
 constexpr double kYield = 1e-13;
-// A gap is the rounding of two positions, five units of their last digit where it is at most the
-// inverse of this share of what an iteration leaves.
+// Gaps up to the inverse of this share of what the iteration may leave are roundings of positions,
+// some five units of their last digit, and stay.
 constexpr double kFewRoundings = 2.0;
 
 }  // namespace

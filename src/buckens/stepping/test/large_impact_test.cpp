@@ -121,7 +121,8 @@ TEST(LargeImpact, IsWhatTheDenseOneIs) {
     order.push_back(balls.places[k].rows[2]);
   }
   const Matrix D = Matrix(balls.D)(order, order);
-  const Vector dense = solve_impact(D, balls.b(order), std::ssize(balls.places), slips);
+  const linalg::SparseMatrix entries = D.sparseView();
+  const Vector dense = solve_impact(entries, balls.b(order), std::ssize(balls.places), slips);
   // Rates are unique to what both leave open.
   EXPECT_NEAR((D * (dense - P(order))).cwiseAbs().maxCoeff(), 0, 1e-9);
 }
