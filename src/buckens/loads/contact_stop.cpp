@@ -16,9 +16,10 @@ Action ContactStop::respond(const Sight& sight) const {
 }
 
 RigidRow ContactStop::row(const Sight& sight) const {
-  if (!has_gone(sight)) return RigidStop::row(sight);
   RigidRow out;
-  out.has_gone = true;
+  out.has_gone = has_gone(sight);
+  if (!out.has_gone) out = RigidStop::row(sight);
+  out.may_go = touch_.may_go();
   return out;
 }
 

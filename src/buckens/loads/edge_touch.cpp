@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "buckens/loads/mesh_touch.h"
 #include "buckens/loads/near_boxes.h"
@@ -31,6 +32,8 @@ constexpr double kBesideCrossing = 3e-5;
 constexpr double kReachOfGroups = 0.1;
 // Of the way along an edge, by which a crossing further on may be higher.
 constexpr double kFurtherOn = 1e-5;
+// Height over way along an edge, up to which its second crossing has a row of its own.
+constexpr double kLiesOn = 0.05;
 // Square of the sine between edges whose crossing has no place.
 constexpr double kAlongEach = 1e-6;
 // Of the depth: if the end of an edge is nearer to a crossing and inside, too, it is the place.
@@ -89,6 +92,8 @@ class EdgesOverEdges {
 
   std::array<Crossing, 2> search(const RelativePose& pose) const {
     std::array<Crossing, 2> best;
+    std::array<Crossing, 8> near;  // of those that touch
+    std::size_t num_near = 0;
     std::array<double, 2> least = {reach_, reach_};
     const auto limit = [&] { return std::max({least[0], least[1], deepest_}); };
     tree_.search(
@@ -105,6 +110,7 @@ class EdgesOverEdges {
               [&](double square, std::uint32_t /*marks*/) { return square < limit() * limit(); },
               [&](int other_edge) {
                 const Crossing found = cross(pose, own_edge, other_edge);
+                if (found.touches && num_near < near.size()) near[num_near++] = found;
                 const double order = found.touches ? found.gap : found.gap + beside_;
                 for (std::size_t end = 0; end < 2; ++end) {
                   const double on = (end == 0 ? kFurtherOn : -kFurtherOn) * found.along;
@@ -114,9 +120,28 @@ class EdgesOverEdges {
                 }
               });
         });
-    // Two rows in one place would share its load without need.
-    if (best[0].own == best[1].own && best[0].other == best[1].other) best[1].touches = false;
+    if (best[0].own == best[1].own && best[0].other == best[1].other) {
+      part(best, {near.begin(), near.begin() + num_near});
+    }
     return best;
+  }
+
+  /// An edge that lies on a face has a row at either border of it, also where it dips more at one
+  /// of them: a single row would go to and fro between both. Where there is no second crossing, two
+  /// rows in one place would share its load without need.
+  static void part(std::array<Crossing, 2>& best, std::span<const Crossing> near) {
+    const Crossing lowest = best[0];
+    double least = HUGE_VAL;
+    best[1].touches = false;
+    if (!lowest.touches) return;
+    for (const Crossing& found : near) {
+      if (found.own != lowest.own || found.other == lowest.other) continue;
+      const double over = found.gap - lowest.gap;
+      if (over > kLiesOn * std::abs(found.along - lowest.along) || !(over < least)) continue;
+      least = over;
+      const bool is_further = found.along > lowest.along;
+      best = is_further ? std::array{found, lowest} : std::array{lowest, found};
+    }
   }
 
   Crossing cross(const RelativePose& pose, int own_edge, int other_edge) const {

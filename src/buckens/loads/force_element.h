@@ -20,6 +20,7 @@ struct RowStand {
 struct RigidRow {
   bool is_closed = false;
   bool holds_position = false;  ///< otherwise its rate only
+  bool may_go = false;          ///< there may be nothing to hold on to, or another place
   bool has_gone = false;        ///< opens at once: there is nothing to hold on to any more
   double gap = 0;               ///< of the position, to be closed [m] or [rad]
   double slip = 0;              ///< of the rate, to be closed [m/s] or [rad/s]

@@ -87,13 +87,18 @@ Polyhedron::Sight Polyhedron::see(const Vector3d& x, const Matrix3d& R, const Co
   const auto height = [&](int facet) {
     return normal(facet).dot(x - flat_.corners(static_cast<std::size_t>(facet))[0]);
   };
+  const auto dips = [&](int facet) {
+    const Vector3d out_of = R.transpose() * normal(facet);
+    return std::any_of(corner.along.begin(), corner.along.end(),
+                       [&](const Vector3d& way) { return way.dot(out_of) < -kDip; });
+  };
   const ContactMesh::Nearest near = flat_.nearest(x);
   Sight out;
   out.facet = near.facet;
   out.gap = std::abs(near.distance);
   if (near.distance > same_) {
     const double over = height(near.facet);
-    out.is_across = over >= (1.0 - kAcross) * near.distance;
+    out.is_across = over >= (1.0 - kAcross) * near.distance && !dips(near.facet);
     if (out.is_across) out.gap = over;
     return out;
   }
@@ -104,10 +109,7 @@ Polyhedron::Sight Polyhedron::see(const Vector3d& x, const Matrix3d& R, const Co
       [&](int facet) {
         const double over = height(facet);
         if (over > same_ || !(std::abs(over) < least)) return;
-        const Vector3d out_of = R.transpose() * normal(facet);
-        const bool dips = std::any_of(corner.along.begin(), corner.along.end(),
-                                      [&](const Vector3d& way) { return way.dot(out_of) < -kDip; });
-        if (dips) return;
+        if (dips(facet)) return;
         const Vector3d foot = x - over * normal(facet);
         const CurvedFacet& face = flat_.facet(static_cast<std::size_t>(facet));
         if (face.nearest(foot).square > same_ * same_) return;

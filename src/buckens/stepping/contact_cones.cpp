@@ -160,6 +160,13 @@ bool ContactCones::decide(const Instant& now, double per_force, double per_chang
   return has_moved;
 }
 
+void ContactCones::follow(int across, RigidRows& rigid) const {
+  for (const Place& place : places_) {
+    if (place.across != across) continue;
+    for (int k = 1; k <= place.count; ++k) rigid.put(across + k, {});
+  }
+}
+
 void ContactCones::hold_over(const Instant& now, double span, RigidRows& rigid) {
   if (!condense(now)) return;
   const Outcome found = solve(now, span, 1.0, rigid);

@@ -45,8 +45,10 @@ class ContactCones {
   /// the rate
   /// @return whether any row stands otherwise
   bool decide(const Instant& now, double per_force, double per_change, RigidRows& rigid);
-  /// The same for forces that are to act throughout a span of time, those across included: at its
-  /// end (I1) and (I2) hold, places stand accordingly, and their rows have these forces. Such
+  /// Opens the rows along of a place whose row across is open.
+  void follow(int across, RigidRows& rigid) const;
+  /// As decide(), for forces that are to act throughout a span of time, those across included: at
+  /// its end (I1) and (I2) hold, places stand accordingly, and their rows have these forces. Such
   /// forces always exist, also where at the instant itself none do.
   /// @param now with the rates of the rows that the end of the span would have without forces
   void hold_over(const Instant& now, double span, RigidRows& rigid);

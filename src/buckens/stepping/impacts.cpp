@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "buckens/dynamics/mass_metric.h"
+#include "buckens/dynamics/model_scales.h"
 #include "buckens/spatial/rotation.h"
 #include "buckens/stepping/friction_impulses.h"
 #include "buckens/stepping/gap_of_step.h"
@@ -31,6 +32,9 @@ constexpr double kStopped = 1e-9;
 // A rate at the instant of the impact that differs from that at the end of the step by more than
 // this share is that of another place.
 constexpr double kSamePlace = 0.1;
+
+// Overlaps by this share of the size of positions, or [rad], are rounding.
+constexpr double kNoGap = 1e-14;
 
 double rate_of(const dynamics::SystemRow& row, const std::vector<dynamics::BodyMotion>& motions) {
   double sum = 0;
@@ -113,6 +117,7 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
   touches_.clear();
   slips_.clear();
   landings_.clear();
+  length_ = dynamics::rounding_length(model_, motions);
   shares_.clear();
   loss_ = 0;
   count_ = 0;
@@ -252,7 +257,10 @@ bool Impacts::look(std::size_t index, const dynamics::Circumstances& around,
   const bool is_closed = sight.stand.regime != 0;
   if (is_closed) contact.regime = sight.stand.regime;
   const double sign = contact.sign;
-  if (!is_closed && !(contact.gap < 0.0)) return false;
+  // What lies there already is out of place by rounding, and approaches by as little.
+  const bool is_length =
+      !model_.coordinates[static_cast<std::size_t>(load.coordinate)].law.is_angle();
+  if (!is_closed && !(contact.gap < -kNoGap * (is_length ? length_ : 1.0))) return false;
   const bool strikes = !is_closed && sign * sight.coordinate.rate < 0.0;
   Touch touch;
   touch.law = index;

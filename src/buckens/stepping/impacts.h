@@ -200,6 +200,7 @@ class Impacts {
   std::vector<BodyJump> jumps_;
   std::vector<Landing> landings_;
   std::vector<ImpactShare> shares_;
+  double length_ = 0;  // of positions in the step looked at last [m]
   double loss_ = 0, rest_ = 0;
   int count_ = 0;
 };

@@ -207,9 +207,12 @@ void MonolithicStepper::evaluate(double t) {
   const double t_e = scheme_.evaluation_time(t);
   dynamics::evaluate_constraints(model_, motions_end_, t + scheme_.h, &memory_, end_);
   dynamics::evaluate_constraints(model_, motions_evaluation_, t_e, &memory_, evaluation_);
+  const auto act = [&] {
+    dynamics::evaluate_forces(model_, motions_evaluation_, t_e, around(), forces_);
+  };
+  act();
+  if (rigid_.let_go(forces_.rigid)) act();
   dynamics::evaluate_soft_rows(model_, motions_evaluation_, t_e, around(), soft_);
-  dynamics::evaluate_forces(model_, motions_evaluation_, t_e, around(), forces_);
-  rigid_.let_go(forces_.rigid);
   dynamics::add_joint_forces(evaluation_, lambda_, forces_);
 }
 

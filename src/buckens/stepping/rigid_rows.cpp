@@ -47,10 +47,14 @@ bool RigidRows::move(const std::vector<loads::RigidRow>& rows,
   return has_moved;
 }
 
-void RigidRows::let_go(const std::vector<loads::RigidRow>& rows) {
+bool RigidRows::let_go(const std::vector<loads::RigidRow>& rows) {
+  bool has_changed = false;
   for (std::size_t k = 0; k < stands_.size(); ++k) {
-    if (rows[k].has_gone) stands_[k] = {};
+    if (!rows[k].has_gone) continue;
+    has_changed = has_changed || stands_[k].regime != 0;
+    stands_[k] = {};
   }
+  return has_changed;
 }
 
 bool RigidRows::put(int row, const loads::RowStand& stand) {

@@ -28,8 +28,8 @@ class RigidRows {
   bool move(const std::vector<loads::RigidRow>& rows,
             const std::vector<char>& decided_elsewhere = {});
   /// Opens what has nothing to hold on to any more, within the iteration: its force would be that
-  /// of a place which has gone.
-  void let_go(const std::vector<loads::RigidRow>& rows);
+  /// of a place which has gone. @return whether any was closed
+  bool let_go(const std::vector<loads::RigidRow>& rows);
   /// Moves one row. @return whether its regime changed
   bool put(int row, const loads::RowStand& stand);
   /// Counts a move of rows that were put.

@@ -29,6 +29,9 @@ constexpr double kPivotDrop = 1e-3;
 // centre.
 constexpr double kDeadCentre = 1e-10;
 
+// Iterations that do not settle, after which a place is looked for that jumps to and fro.
+constexpr int kJumping = 30;
+
 /// Calls f for the rows that are not in use. @param rows_in_use ascending
 template <class F>
 void for_other_rows(const std::vector<int>& rows_in_use, Eigen::Index count, F&& f) {
@@ -120,8 +123,11 @@ void SmallNewton::evaluate(std::vector<BodyStep>& bodies, double t, const Vector
   }
   steer(t);
   const double t_e = scheme_.evaluation_time(t);
-  dynamics::evaluate_forces(model_, at_evaluation(), t_e, around_, forces_, 1.0, &joints_.laws());
-  rigid_.let_go(forces_.rigid);
+  const auto act = [&] {
+    dynamics::evaluate_forces(model_, at_evaluation(), t_e, around_, forces_, 1.0, &joints_.laws());
+  };
+  act();
+  if (rigid_.let_go(forces_.rigid)) act();
   const dynamics::JointSet::Laws with{around_, slopes};
   if (same) {
     joints_.evaluate(end_, t + scheme_.h, around_.memory, residuals_, &lambda, &forces_, &with);
@@ -418,8 +424,9 @@ IterationEnd::Change SmallNewton::move(std::vector<BodyStep>& bodies, double t, 
 void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda, Change change,
                          StepReport& report) {
   Change before;
-  int since_moved = 0;  // iterations since a rigid row moved last
-  int flickers = 0;     // changes of regimes in a row that moved nothing
+  int since_moved = 0;    // iterations since a rigid row moved last
+  int since_settled = 0;  // the same since it had settled between
+  int flickers = 0;       // changes of regimes in a row that moved nothing
   for (;;) {
     ++since_moved;
     evaluate(bodies, t, lambda, slopes_are_old_ ? &slopes_of_joints_ : nullptr);
@@ -430,8 +437,11 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
     const bool is_settled =
         flickers > 1 ||
         (are_formed && ending_.is_settled(change, before, condensation_->pivot_ratio()));
+    since_settled = is_settled ? 0 : since_settled + 1;
     if (is_settled || is_restless(since_moved)) {
-      const bool has_moved = is_settled ? move_rigid_rows(t, report) : decide_cones(t, report);
+      bool has_moved = is_settled ? move_rigid_rows(t, report) : decide_cones(t, report);
+      if (!is_settled && since_settled % kJumping == 0)
+        has_moved = let_jumping_go(change.size) || has_moved;
       if (is_settled && !has_moved) break;
       if (has_moved) {
         since_moved = 0;

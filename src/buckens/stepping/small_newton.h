@@ -136,6 +136,9 @@ class SmallNewton {
     constexpr int kRestless = 10;
     return !cones_.empty() && iterations % kRestless == 0;
   }
+  /// Lets a contact go whose place jumps to and fro, so that its gap does not close: what is there
+  /// then is found at the end of the step. @param change of the last iteration @return whether any
+  bool let_jumping_go(double change);
   /// Forms the matrix of multipliers again if a force law has changed its regime since. @return
   /// false if so
   bool regimes_hold(std::vector<BodyStep>& bodies, double t, const StepReport& report);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Soft rows of force laws in the iteration of a step, and what follows when laws change regimes.
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "buckens/stepping/small_newton.h"
@@ -11,6 +12,8 @@ namespace buckens::stepping {
 namespace {
 
 constexpr int kMostMoves = 20;  // of rigid rows from one part of their set to another in a step
+// Gaps by this share of the change of an iteration do not close by it.
+constexpr double kOpenGap = 0.1;
 // Share of its own force that a row of a mix keeps in the tangent. The matrix of multipliers loses
 // as many digits, and the iteration gains as many in each round.
 constexpr double kOwnShare = 1e-4;
@@ -166,6 +169,21 @@ bool SmallNewton::may_move(double t, const StepReport& report) {
   if (accepts_last_stands_) return false;
   fail(t, report,
        "no combination of holding and releasing satisfies all rigid stops and rigid friction");
+}
+
+bool SmallNewton::let_jumping_go(double change) {
+  int worst = -1;
+  double most = kOpenGap * change;
+  for (std::size_t k = 0; k < soft_.rows.size(); ++k) {
+    const loads::RigidRow* row = closed_row(k);
+    if (row == nullptr || !row->may_go || !(std::abs(row->gap) > most)) continue;
+    most = std::abs(row->gap);
+    worst = soft_.rigid[k];
+  }
+  if (worst < 0) return false;
+  rigid_.put(worst, {});
+  cones_.follow(worst, rigid_);
+  return true;
 }
 
 bool SmallNewton::form_tangent(std::vector<BodyStep>& bodies, bool rigid_rows_moved) {

@@ -46,13 +46,15 @@ void RoughContacts::hold_over(double span, model::State& state) {
   rigid_.start(state.memory);
   const auto motions = dynamics::motions_of(model_, state);
   dynamics::evaluate_soft_rows(model_, motions, state.t, dynamics::circumstances_of(state), soft_);
+  dynamics::Forces forces;
+  dynamics::evaluate_forces(model_, motions, state.t, dynamics::circumstances_of(state), forces);
+  rigid_.let_go(forces.rigid);
   // Without their forces first.
   for (const model::Load& load : model_.loads) {
     if (load.rigid_row < 0 || !owns(load.rigid_row)) continue;
     state.memory.laws[load.first_state] = state.memory.laws[load.first_state + 1] = 0.0;
   }
   settle_accelerations(model_, metric_, rows_in_use_, state);
-  dynamics::Forces forces;
   dynamics::evaluate_forces(model_, motions, state.t, dynamics::circumstances_of(state), forces);
   foresee(motions, state, span, forces.rigid);
   for (std::size_t k = 0; k < forces.rigid.size(); ++k) {

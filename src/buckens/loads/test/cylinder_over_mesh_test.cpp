@@ -162,7 +162,7 @@ bool goes_over(const spatial::TouchFinder& finder, const test::MarkerPair& place
 void expect_rates_of_all(const TouchFinders& finders, double apart, int at_least) {
   std::mt19937 chance(6);
   int count = 0;
-  for (int k = 0; k < 60; ++k) {
+  for (int k = 0; k < 100; ++k) {
     test::MarkerPair placed(chance, 0.4);
     placed.M.p = placed.F.p + apart * (placed.M.p - placed.F.p).normalized();
     for (const auto& finder : finders) {

@@ -314,6 +314,51 @@ TEST(PolyhedronTouch, EdgesOfBoxesThatCrossTouchInOnePlace) {
   EXPECT_GE(count, 1);
 }
 
+/// Places that touch within a gap, in order of x.
+std::vector<TouchPlace> touching(const Solid& first, const Solid& second, const MarkerMotion& F,
+                                 const MarkerMotion& M, double gap) {
+  std::vector<TouchPlace> out;
+  for (const auto& finder : polyhedron_touches(first, second)) {
+    TouchPlace place;
+    finder->look(F, M, place);
+    if (place.touches && std::abs(place.gap) < gap) out.push_back(place);
+  }
+  const auto is_before = [](const auto& a, const auto& b) { return a.place.x() < b.place.x(); };
+  std::sort(out.begin(), out.end(), is_before);
+  return out;
+}
+
+TEST(PolyhedronTouch, AnEdgeThatDipsOnAPlateHasARowAtEitherBorder) {
+  // A beam over a plate, a little lower at one of the borders, or at the other one.
+  const Solid plate = block_of({0.1, 0.1, 0.05}, 1), beam = block_of({0.2, 0.05, 0.05}, 1);
+  MarkerMotion F, M;
+  M.p = {0.01, 0, 0.1};
+  for (const double tilt : {-3e-4, -1e-6, 1e-6, 3e-4}) {
+    M.R = spatial::exp_rotation({0, tilt, 0}).toRotationMatrix();
+    const std::vector<TouchPlace> found = touching(plate, beam, F, M, 1e-3);
+    ASSERT_EQ(found.size(), 4U) << tilt;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double x = k < 2 ? -0.1 : 0.1;
+      EXPECT_NEAR(found[k].place.x(), x, 1e-4);
+      // The bottom of the beam there; the rest is of second order.
+      EXPECT_NEAR(found[k].gap, -tilt * (x - 0.01), 0.1 * tilt * tilt);
+    }
+  }
+}
+
+TEST(PolyhedronTouch, ACornerDoesNotTouchAFaceIntoWhichItsEdgesLead) {
+  // It lies a micron beside the wall, and a millimetre below the top on which its body lies.
+  const Solid first = block_of({0.1, 0.1, 0.1}, 1), second = block_of({0.1, 0.1, 0.1}, 1);
+  MarkerMotion F, M;
+  for (const double beside : {1e-6, 1e-10, -1e-10, -1e-6}) {
+    M.p = {beside, -0.1, 0.199};
+    for (const TouchPlace& place : touching(first, second, F, M, 2e-3)) {
+      EXPECT_NEAR(place.normal.z(), 1.0, 1e-12) << beside;
+      EXPECT_NEAR(place.gap, -0.001, 1e-12) << beside;
+    }
+  }
+}
+
 /// Whether a finder goes over to another feature within the differences.
 bool jumps(const spatial::TouchFinder& finder, const PlacedSolids& placed) {
   TouchPlace now, then;
