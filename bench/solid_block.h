@@ -62,7 +62,7 @@ inline fem::FeModel SolidBlock::assembled() const {
 /// K̂ of a step of 0.1 ms by average acceleration.
 inline linalg::SparseMatrix step_matrix(const fem::FeModel& fe) {
   constexpr double kStep = 1e-4;
-  linalg::SparseMatrix out = fe.M + (0.25 * kStep * kStep) * fe.K;
+  linalg::SparseMatrix out = fe.M.whole() + (0.25 * kStep * kStep) * fe.K.whole();
   out.makeCompressed();
   return out;
 }

@@ -79,8 +79,9 @@ CouplingTerms terms_of(const std::string& level) {
 
 buckens::linalg::SparseMatrix step_matrix(const buckens::body::FlexiblePart& part,
                                           const buckens::stepping::Scheme& scheme) {
-  buckens::linalg::SparseMatrix out =
-      scheme.mass * part.fe.M + scheme.stiffness * part.fe.K + scheme.damping * part.C;
+  buckens::linalg::SparseMatrix out = scheme.mass * part.fe.M.whole() +
+                                      scheme.stiffness * part.fe.K.whole() +
+                                      scheme.damping * part.C.whole();
   out.makeCompressed();
   return out;
 }

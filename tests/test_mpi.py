@@ -79,13 +79,28 @@ def must(result, code=0):
     return result
 
 
+def energies(directory):
+    with h5py.File(directory / "results.h5") as file:
+        return {name: file[f"energies/{name}"][()] for name in ("kinetic", "strain")}
+
+
+def expect_same_energies(several_, one):
+    """Both are products with M and K, which other processes have."""
+    expected = energies(one)
+    scale = max(numpy.abs(values).max() for values in expected.values())
+    assert scale > 0
+    for name, values in energies(several_).items():
+        assert numpy.abs(values - expected[name]).max() < 1e-9 * scale, name
+
+
 @several
-@pytest.mark.parametrize("count", [2, 3])
+@pytest.mark.parametrize("count", [2, 3, 4])
 def test_a_large_body_is_distributed(buckens, mpirun, tmp_path, count):
     (tmp_path / "cube.yaml").write_text(CUBE)
     buckens("run", "cube.yaml", "-o", "one").must(0)
     must(mpirun(count, "run", "cube.yaml", "-o", "several"))
     assert largest_difference(sensors(tmp_path / "several"), sensors(tmp_path / "one")) < 1e-9
+    expect_same_energies(tmp_path / "several", tmp_path / "one")
     with h5py.File(tmp_path / "one" / "results.h5") as one, h5py.File(tmp_path / "several" / "results.h5") as several_:
         names = []
         one.visit(names.append)
@@ -126,6 +141,10 @@ LARGE = {
     "damped": ("materials.steel.damping={mass: 20, stiffness: 0.01 ms}", "bodies.cube.coupling=first-order"),
     "iterative": ("bodies.cube.solver=iterative",),
     "rigid interface": ("bodies.cube.interfaces.bearing.kind=rigid",),
+    # C is no sum of M and K: each step multiplies by C, too.
+    "held damping": ("bodies.cube.interfaces.bearing.kind=rigid", "materials.steel.damping={ratio: 2 %, at: [100 Hz, 20 kHz]}"),
+    # Each length of step has a factor of its own, for which M and K come together again.
+    "steps of its own": ("simulation.step=auto", "simulation.tolerance=1e-4"),
 }
 
 
@@ -139,6 +158,25 @@ def test_a_large_body_of_another_kind(buckens, mpirun, tmp_path, name):
     # Iterations on several processes are others than those on one.
     limit = 1e-8 if name == "iterative" else 1e-9
     assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < limit
+    if name != "iterative":
+        expect_same_energies(tmp_path / "two", tmp_path / "one")
+
+
+TWINS = CUBE.replace("joints:", "  other:\n    like: cube\n    at: {position: [0.2, -0.05, -0.05]}\njoints:").replace(
+    "{ball: {spherical: {between: [ground, cube/bearing]}}}",
+    "{ball: {spherical: {between: [ground, cube/bearing]}}, second: {spherical: {between: [ground, other/bearing]}}}").replace(
+    "{position: cube/corner_111}", "{position: cube/corner_111}, far: {position: other/corner_111}")
+
+
+@several
+def test_equal_bodies_share_what_is_divided(buckens, mpirun, tmp_path):
+    (tmp_path / "twins.yaml").write_text(TWINS)
+    buckens("run", "twins.yaml", "-o", "one").must(0)
+    must(mpirun(2, "run", "twins.yaml", "-o", "two"))
+    assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < 1e-9
+    expect_same_energies(tmp_path / "two", tmp_path / "one")
+    counts = json.loads((tmp_path / "two" / "summary.json").read_text())["bodies"]
+    assert counts["cube"]["factorisations"] + counts["other"]["factorisations"] == 1
 
 
 @several
@@ -181,18 +219,45 @@ def test_messages_and_bytes_of_a_step_are_counted(mpirun, tmp_path, count):
 
 @several
 def test_messages_and_bytes_of_a_factor_are_those_of_one_vector_each_way(mpirun, tmp_path):
-    """Right-hand sides go where MUMPS has their rows, and answers come from there."""
+    """Right-hand sides go where MUMPS has their rows, and answers come from there.
+
+    Each record asks for the products of its energies by one order: M and K times a vector each, of which the second process has all rows.
+    """
     (tmp_path / "cube.yaml").write_text(CUBE)
     must(mpirun(2, "run", "cube.yaml", "-o", "out"))
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     cube = summary["bodies"]["cube"]
     solves = cube["solves"] / summary["steps"]
-    assert summary["measures"]["messages_per_step"] == pytest.approx(5 * solves, rel=1e-12)
+    records = 1
+    assert summary["measures"]["messages_per_step"] == pytest.approx(5 * solves + 3 * records, rel=1e-12)
     order = 56
-    there = (summary["measures"]["bytes_per_step"] / solves - order - 2 * 4) / (2 * 8)
+    of_products = records * (order + 2 * 2 * 8 * cube["dof"])
+    there = ((summary["measures"]["bytes_per_step"] - of_products) / solves - order - 2 * 4) / (2 * 8)
     assert there == pytest.approx(round(there), abs=1e-6)
     # Subtrees of the order of elimination, which differ in size.
     assert 0.25 * cube["dof"] < there < 0.75 * cube["dof"]
+
+
+@several
+@pytest.mark.parametrize("rank", [0, 1])
+def test_a_killed_process_ends_a_run_with_divided_matrices(tmp_path, rank):
+    (tmp_path / "cube.yaml").write_text(CUBE)
+    command = [MPIRUN, "-n", "3", PROGRAM, "run", "cube.yaml", "-o", "out", "-q", "--set", "simulation.duration=3 s"]
+    with open(tmp_path / "told", "w") as told:
+        process = subprocess.Popen(command, cwd=tmp_path, env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=told, stderr=told)
+        try:
+            deadline = time.monotonic() + 240
+            csv = tmp_path / "out" / "sensors.csv"
+            while not csv.exists() or len(csv.read_text().splitlines()) < 3:
+                assert time.monotonic() < deadline and process.poll() is None, (tmp_path / "told").read_text()
+                time.sleep(0.1)
+            os.kill(started(process, rank), signal.SIGKILL)
+            assert process.wait(timeout=60) != 0
+        finally:
+            if process.poll() is None:
+                process.kill()
+    assert "signal 9" in (tmp_path / "told").read_text()
+    assert len(sensors(tmp_path / "out")["t"]) >= 1, "what was recorded is there"
 
 
 @several

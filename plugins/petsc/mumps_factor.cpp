@@ -102,7 +102,8 @@ bool MumpsFactor::run(int job) {
 
 bool MumpsFactor::prepare(const TrianglePart& part, const int* order) try {
   const int entries = part.count > 0 ? part.starts[part.count] - part.starts[0] : 0;
-  rows_.reserve(static_cast<std::size_t>(entries));
+  rows_.reserve(static_cast<std::size_t>(entries) +
+                1);  // MUMPS asks for an address of nothing, too
   columns_.reserve(rows_.capacity());
   for (int k = 0; k < part.count; ++k) {
     for (int e = part.starts[k]; e < part.starts[k + 1]; ++e) {

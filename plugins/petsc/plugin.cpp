@@ -94,9 +94,29 @@ void plugin_traffic(BuckensGridTraffic* traffic) {
   *traffic = ranks() != nullptr ? ranks()->traffic() : BuckensGridTraffic{};
 }
 
-const BuckensGridPlugin plugin = {kBuckensGridVersion, plugin_name,    plugin_make, plugin_solve,
-                                  plugin_bytes,        plugin_release, plugin_join, plugin_serve,
-                                  plugin_leave,        plugin_traffic};
+int plugin_divide(int size, const BuckensGridColumns* all, char* error, int error_size) {
+  if (ranks() == nullptr) set_reason("there are no other processes");
+  const int number = ranks() != nullptr ? ranks()->divide(size, *all) : -1;
+  if (number < 0) fail(error, error_size);
+  return number;
+}
+
+void plugin_multiply(int count, const int* matrices, const double* const* x, double* const* y) {
+  ranks()->multiply(count, matrices, x, y);
+}
+
+void plugin_gather(int matrix, int* starts, int* rows, double* values) {
+  ranks()->gather(matrix, starts, rows, values);
+}
+
+void plugin_forget(int matrix) {
+  if (ranks() != nullptr) ranks()->forget(matrix);
+}
+
+const BuckensGridPlugin plugin = {
+    kBuckensGridVersion, plugin_name,     plugin_make,   plugin_solve, plugin_bytes,
+    plugin_release,      plugin_join,     plugin_serve,  plugin_leave, plugin_traffic,
+    plugin_divide,       plugin_multiply, plugin_gather, plugin_forget};
 
 }  // namespace
 

@@ -52,6 +52,13 @@ void Ranks::give(const Order& order) {
   count_messages(count_ - 1, sizeof copy);
 }
 
+void Ranks::give(Task task, int number) {
+  Order order;
+  order.task = task;
+  order.number = number;
+  give(order);
+}
+
 void Ranks::count_messages(int messages, double bytes_each) {
   traffic_.messages += messages;
   traffic_.bytes += messages * bytes_each;
@@ -91,6 +98,18 @@ void Ranks::serve() {
       case Task::release:
         shared_->parts.erase(order.number);
         break;
+      case Task::divide:
+        (void)divide_together(order, nullptr);
+        break;
+      case Task::multiply:
+        multiply_together(order, nullptr, nullptr);
+        break;
+      case Task::gather:
+        gather_together(order, nullptr, nullptr, nullptr);
+        break;
+      case Task::forget:
+        shared_->matrices.erase(order.number);
+        break;
       case Task::leave:
         shared_->parts.clear();
         (void)PetscFinalize();
@@ -101,7 +120,7 @@ void Ranks::serve() {
 }
 
 void Ranks::leave() {
-  give({Task::leave});
+  give(Task::leave);
   shared_->parts.clear();
   (void)PetscFinalize();
   MPI_Finalize();
@@ -118,6 +137,7 @@ int Ranks::make(const BuckensGridMatrix& matrix) {
   order.options = matrix.options == nullptr
                       ? 0
                       : static_cast<int>(std::char_traits<char>::length(matrix.options));
+  order.set_matrices(matrix.terms, matrix.num_terms);
   if (order.size / order.block < count_) {
     set_reason("its " + std::to_string(order.size / order.block) +
                " nodes cannot be divided among " + std::to_string(count_) + " processes");
@@ -186,12 +206,12 @@ bool Ranks::solve_together(const Order& order, const double* b, double* x,
 }
 
 double Ranks::bytes(int number) {
-  give({Task::measure, number});
+  give(Task::measure, number);
   return shared_->parts.at(number)->bytes();
 }
 
 void Ranks::release(int number) {
-  give({Task::release, number});
+  give(Task::release, number);
   shared_->parts.erase(number);
 }
 

@@ -3,10 +3,13 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "solver.h"
 
 namespace buckens_petsc {
+
+enum class Task : int;
 
 /// The processes that mpirun started, of which the first simulates and the others serve its solves:
 /// they hold runs of rows of each matrix and of its factor, and wait for work.
@@ -35,6 +38,12 @@ class Ranks {
              BuckensGridOutcome& outcome);
   double bytes(int number);
   void release(int number);
+  /// Of the first: gives a matrix to the others. @return its number, −1 as make()
+  int divide(int size, const BuckensGridColumns& all);
+  /// y_k = A_k x_k
+  void multiply(int count, const int* matrices, const double* const* x, double* const* y);
+  void gather(int matrix, int* starts, int* rows, double* values);
+  void forget(int matrix);
   /// Of the first: so far.
   BuckensGridTraffic traffic() const { return traffic_; }
 
@@ -43,9 +52,11 @@ class Ranks {
   struct Part;
   struct Shared;
   struct OwnRows;
+  struct Divided;
 
   Ranks();
   void give(const Order& order);
+  void give(Task task, int number = 0);
   Order wait_for_order();
   void count_messages(int messages, double bytes_each);
   template <class T>
@@ -56,6 +67,15 @@ class Ranks {
   bool make_together(const Order& order, const BuckensGridMatrix* matrix);
   bool factorise_together(const Order& order, const BuckensGridMatrix* matrix);
   void find_places(int size, Part& part);
+  bool sum_terms(const Order& order, const BuckensGridMatrix* matrix, OwnRows& own);
+  bool divide_together(const Order& order, const BuckensGridColumns* all);
+  void exchange_columns(const BuckensGridColumns* all, Divided& matrix);
+  void exchange_lists(Divided& matrix);
+  void multiply_together(const Order& order, const double* const* x, double* const* y);
+  void ask_for_products(const std::vector<const Divided*>& matrices, const double* const* x,
+                        double* const* y);
+  void form_products(const std::vector<const Divided*>& matrices);
+  void gather_together(const Order& order, int* starts, int* rows, double* values);
   bool solve_together(const Order& order, const double* b, double* x, BuckensGridOutcome& outcome);
   bool has_failed_somewhere(bool has_failed);
 

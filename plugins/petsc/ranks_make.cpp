@@ -3,36 +3,10 @@
 #include <algorithm>
 #include <string>
 
+#include "ranks_messages.h"
 #include "ranks_parts.h"
 
 namespace buckens_petsc {
-
-namespace {
-
-// MPI counts with int.
-constexpr std::size_t kMostAtOnce = std::size_t{1} << 28;
-constexpr int kDataTag = 1;
-
-MPI_Datatype type_of(const int*) { return MPI_INT; }
-MPI_Datatype type_of(const double*) { return MPI_DOUBLE; }
-
-template <class T>
-void send(const T* values, std::size_t count, int to, MPI_Comm comm) {
-  for (std::size_t first = 0; first < count; first += kMostAtOnce) {
-    const auto some = static_cast<int>(std::min(kMostAtOnce, count - first));
-    MPI_Send(values + first, some, type_of(values), to, kDataTag, comm);
-  }
-}
-
-template <class T>
-void receive(T* values, std::size_t count, int from, MPI_Comm comm) {
-  for (std::size_t first = 0; first < count; first += kMostAtOnce) {
-    const auto some = static_cast<int>(std::min(kMostAtOnce, count - first));
-    MPI_Recv(values + first, some, type_of(values), from, kDataTag, comm, MPI_STATUS_IGNORE);
-  }
-}
-
-}  // namespace
 
 /// Of the first process: gives the others their rows, one after the other, and finds its own last,
 /// so that it never holds those of two.
@@ -67,13 +41,6 @@ bool Ranks::send_rows(const Part& part, const BuckensGridMatrix& matrix, OwnRows
     }
   }
   return has_memory;
-}
-
-template <class T>
-void Ranks::send_counted(const T* values, std::size_t count, int to) {
-  send(values, count, to, work_);
-  traffic_.messages += 1;
-  traffic_.bytes += static_cast<double>(count * sizeof(T));
 }
 
 /// Of the others: what send_rows() sends.
@@ -151,8 +118,16 @@ bool Ranks::make_together(const Order& order, const BuckensGridMatrix* matrix) {
 bool Ranks::factorise_together(const Order& order, const BuckensGridMatrix* matrix) {
   std::unique_ptr<Part> part = divide(order);
   OwnRows own;
-  const bool is_complete = matrix != nullptr ? send_rows(*part, *matrix, own)
-                                             : receive_rows(part->counts[rank_], 0, own);
+  bool is_complete = false;
+  if (order.num_matrices() > 0) {
+    const Divided& term = *shared_->matrices.at(order.of.front());
+    part->first = term.first;
+    part->counts = term.counts;
+    is_complete = sum_terms(order, matrix, own);
+  } else {
+    is_complete = matrix != nullptr ? send_rows(*part, *matrix, own)
+                                    : receive_rows(part->counts[rank_], 0, own);
+  }
   part->factor = std::make_unique<MumpsFactor>(work_);
   const TrianglePart triangle{order.size,         part->first[rank_], part->counts[rank_],
                               own.columns.starts, own.columns.rows,   own.columns.values};
@@ -162,7 +137,8 @@ bool Ranks::factorise_together(const Order& order, const BuckensGridMatrix* matr
   if (has_failed_somewhere(!is_prepared)) return false;
   own.rows = {};
   const bool is_made = part->factor->make();
-  if (matrix != nullptr) matrix->give(matrix->source, 0, 0, nullptr);
+  own = {};
+  if (matrix != nullptr && matrix->give != nullptr) matrix->give(matrix->source, 0, 0, nullptr);
   if (has_failed_somewhere(!is_made)) return false;
   find_places(order.size, *part);
   shared_->parts[order.number] = std::move(part);

@@ -52,7 +52,7 @@ TEST(Like, MakesASecondBodyOfTheSameMesh) {
   EXPECT_EQ(right.mass, left.mass);
   EXPECT_EQ(right.com, left.com);
   EXPECT_EQ(right.num_dofs(), left.num_dofs());
-  EXPECT_EQ((right.flexible->C - left.flexible->C).norm(), 0);
+  EXPECT_EQ((right.flexible->C.whole() - left.flexible->C.whole()).norm(), 0);
   EXPECT_TRUE(right.flexible->is_damped());
   EXPECT_GE(right.find_marker("grip"), 0);
 }

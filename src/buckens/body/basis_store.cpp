@@ -40,8 +40,8 @@ class Hash {
 std::uint64_t basis_key(const FlexiblePart& part, const std::string& choice) {
   Hash hash;
   for (const char letter : choice) hash.add(static_cast<std::uint64_t>(letter));
-  hash.add_matrix(part.fe.M);
-  hash.add_matrix(part.fe.K);
+  hash.add_matrix(part.fe.M.whole());
+  hash.add_matrix(part.fe.K.whole());
   const Eigen::SparseMatrix<double, Eigen::RowMajor> N = part.rows.topRows(part.num_interface_rows);
   hash.add_matrix(N);
   hash.add(static_cast<std::uint64_t>(part.num_pattern_rows));

@@ -30,30 +30,17 @@ Sieve make_sieve(const std::string& body, const fem::FeModel& fe) {
   return Sieve(Phi, fe.M);
 }
 
-/// The model, without copies of its large matrices, which Eigen's moves make.
-fem::FeModel taken_over(fem::FeModel& from) {
-  linalg::SparseMatrix M, K, K_damping;
-  M.swap(from.M);
-  K.swap(from.K);
-  K_damping.swap(from.K_damping);
-  fem::FeModel out = std::move(from);
-  out.M.swap(M);
-  out.K.swap(K);
-  out.K_damping.swap(K_damping);
-  return out;
-}
-
 linalg::SparseMatrix damping_matrix(const fem::FeModel& fe) {
   linalg::SparseMatrix C(fe.M.rows(), fe.M.cols());
-  if (fe.mass_damping > 0.0) C = fe.mass_damping * fe.M;
-  if (fe.K_damping.nonZeros() > 0) C += fe.K_damping;
+  if (fe.mass_damping > 0.0) C = fe.mass_damping * fe.M.whole();
+  if (fe.K_damping.nonZeros() > 0) C += fe.K_damping.whole();
   return C;
 }
 
 }  // namespace
 
 FlexiblePart::FlexiblePart(const std::string& body, fem::FeModel model, CouplingChoice choice)
-    : fe(taken_over(model)),
+    : fe(std::move(model)),
       sieve(make_sieve(body, fe)),
       invariants(fe.shape),
       C(damping_matrix(fe)),

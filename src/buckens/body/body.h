@@ -38,7 +38,7 @@ struct FlexiblePart {
   fem::FeModel fe;  ///< of the equations of motion
   Sieve sieve;
   InertiaInvariants invariants;
-  linalg::SparseMatrix C;  ///< α M + Σ β K, FM (22); empty pattern where undamped
+  linalg::SymmetricMatrix C;  ///< α M + Σ β K, FM (22); empty pattern where undamped
   CouplingChoice coupling;
   /// Deforms without inertia of its own: rates of deformation are zero throughout.
   bool is_quasi_static = false;

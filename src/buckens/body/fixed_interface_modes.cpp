@@ -53,8 +53,8 @@ FreeModes solve_fixed_dense(const FlexiblePart& part, const Matrix& columns, Eig
   const Matrix Z = scale.asDiagonal() * null_space(columns, scale);
   // Few variables without mass: with a shift, the roles of M and K can be exchanged.
   const double shift = 1e-6 * highest_square(part.fe.M, part.fe.K);
-  const Matrix M = Z.transpose() * (part.fe.M * Z);
-  const Matrix A = Z.transpose() * (part.fe.K * Z) + shift * M;
+  const Matrix M = Z.transpose() * (part.fe.M.whole() * Z);
+  const Matrix A = Z.transpose() * (part.fe.K.whole() * Z) + shift * M;
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eigen(M, A);
   if (eigen.info() != Eigen::Success) {
     throw NumericalError(
@@ -75,7 +75,7 @@ FreeModes iterate_fixed(const FlexiblePart& part, const Matrix& columns, int cou
   const SparseMatrix& M = part.fe.M;
   const double bound = lowest_square_estimate(part);
   const double shift = bound > 0.0 ? 0.3 * bound : cautious_shift(M, part.fe.K);
-  const linalg::SparseCholesky factor(SparseMatrix(part.fe.K + shift * M));
+  const linalg::SparseCholesky factor(SparseMatrix(part.fe.K.whole() + shift * M));
   const Matrix G = factor.solve(columns);
   const Eigen::CompleteOrthogonalDecomposition<Matrix> compliance(columns.transpose() * G);
   const auto inverse = [&](Matrix& F) {

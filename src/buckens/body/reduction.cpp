@@ -65,8 +65,8 @@ fem::ShapeIntegrals projected(const FlexiblePart& part, const Matrix& Z) {
 
 /// Takes all inertia of its own from a deformation.
 void drop_rates(fem::FeModel& fe) {
-  fe.M.setZero();
-  fe.K_damping.setZero();
+  fe.M = SparseMatrix(fe.M.rows(), fe.M.cols());
+  fe.K_damping = SparseMatrix(fe.M.rows(), fe.M.cols());
   fe.mass_damping = 0;
 }
 

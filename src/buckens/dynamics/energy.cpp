@@ -27,12 +27,35 @@ body::DeformedMoments inertia(const body::Body& body, const model::BodyState& st
   return out;
 }
 
-double kinetic_energy(const body::Body& body, const model::BodyState& state) {
+/// What deformation has of its own.
+struct OfDeformation {
+  double kinetic = 0, strain = 0;
+};
+
+/// Its products with M and K are asked for together: other processes may have the matrices.
+OfDeformation energy_of_deformation(const body::Body& body, const model::BodyState& s) {
+  OfDeformation out;
+  if (!body.is_flexible()) return out;
+  const body::FlexiblePart& part = *body.flexible;
+  linalg::Vector momenta, forces;
+  // The motion of a quasi-static body does no work on its deformation.
+  if (part.is_quasi_static) {
+    linalg::multiply({{&part.fe.M, &s.d_dot, &momenta}});
+  } else {
+    linalg::multiply({{&part.fe.M, &s.d_dot, &momenta}, {&part.fe.K, &s.d, &forces}});
+    out.strain = 0.5 * s.d.dot(forces);
+  }
+  out.kinetic = 0.5 * s.d_dot.dot(momenta);
+  return out;
+}
+
+double kinetic_energy(const body::Body& body, const model::BodyState& state,
+                      const OfDeformation& deformation) {
   const Vector3d& w = state.frame.w;
   double T = 0.5 * body.mass * state.frame.v.squaredNorm();
   const body::DeformedMoments moments = inertia(body, state);
   T += 0.5 * w.dot(moments.J * w) + w.dot(moments.l);
-  if (body.is_flexible()) T += 0.5 * state.d_dot.dot(body.flexible->fe.M * state.d_dot);
+  if (body.is_flexible()) T += deformation.kinetic;
   return T;
 }
 
@@ -44,12 +67,10 @@ Energy energy(const model::Model& model, const model::State& state) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const body::Body& body = model.bodies[b];
     const model::BodyState& s = state.bodies[b];
-    out.kinetic += kinetic_energy(body, s);
+    const OfDeformation deformation = energy_of_deformation(body, s);
+    out.kinetic += kinetic_energy(body, s, deformation);
     out.gravity -= body.mass * gravity.dot(s.frame.X_WB.p);
-    // The motion of a quasi-static body does no work on its deformation.
-    if (body.is_flexible() && !body.flexible->is_quasi_static) {
-      out.strain += 0.5 * s.d.dot(body.flexible->fe.K * s.d);
-    }
+    out.strain += deformation.strain;
   }
   Forces forces;
   evaluate_forces(model, motions_of(model, state), state.t, circumstances_of(state), forces);

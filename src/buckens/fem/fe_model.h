@@ -6,7 +6,7 @@
 
 #include "buckens/fem/element/dof_map.h"
 #include "buckens/fem/element/shape_integrals.h"
-#include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/symmetric_matrix.h"
 
 namespace buckens::fem {
 
@@ -20,10 +20,10 @@ class ElementBlock;
 struct FeModel {
   std::vector<Node> nodes;
   DofMap dofs;
-  linalg::SparseMatrix M;          ///< consistent mass, n×n [kg, kg m, kg m²]
-  linalg::SparseMatrix K;          ///< stiffness, n×n [N/m, N, N m]
-  linalg::SparseMatrix K_damping;  ///< Σ β K over materials, n×n; no entries where undamped
-  double mass_damping = 0;         ///< α [1/s], one value per body
+  linalg::SymmetricMatrix M;          ///< consistent mass, n×n [kg, kg m, kg m²]
+  linalg::SymmetricMatrix K;          ///< stiffness, n×n [N/m, N, N m]
+  linalg::SymmetricMatrix K_damping;  ///< Σ β K over materials, n×n; no entries where undamped
+  double mass_damping = 0;            ///< α [1/s], one value per body
   /// α acts on the motion of the body as held by its joints, not on that relative to its frame.
   bool damps_held_motion = false;
   ShapeIntegrals shape;

@@ -13,11 +13,10 @@ namespace {
 constexpr double kTolerance = 1e-14;
 // Once below this, a residual that no longer falls is at the limit of rounding.
 constexpr double kAcceptable = 1e-10;
-}  // namespace
 
-Vector conjugate_gradients(const SparseMatrix& A, const Vector& b) {
+template <class Product>
+Vector solve_by_products(const Vector& diagonal, const Vector& b, Product&& product) {
   const Eigen::Index n = b.size();
-  const Vector diagonal = A.diagonal();
   const Vector inverse = (diagonal.array() > 0.0).select(diagonal.cwiseInverse(), Vector::Zero(n));
   Vector x = Vector::Zero(n);
   Vector r = (diagonal.array() > 0.0).select(b, Vector::Zero(n));
@@ -29,6 +28,7 @@ Vector conjugate_gradients(const SparseMatrix& A, const Vector& b) {
     throw NumericalError("a load on a mass matrix of size " + std::to_string(n) +
                          " is not finite; check loads, velocities and their units");
   }
+  Vector image(n);
   double best = 1.0;
   int since_best = 0;
   const double cap = 50.0 + 20.0 * std::sqrt(static_cast<double>(n)) + static_cast<double>(n);
@@ -38,7 +38,8 @@ Vector conjugate_gradients(const SparseMatrix& A, const Vector& b) {
     since_best = relative < best ? 0 : since_best + 1;
     best = std::min(best, relative);
     if (relative <= kTolerance || (best < kAcceptable && since_best > 10)) return x;
-    const Vector Ap = (diagonal.array() > 0.0).select(A * p, Vector::Zero(n));
+    product(p, image);
+    const Vector Ap = (diagonal.array() > 0.0).select(image, Vector::Zero(n));
     const double step = rz / p.dot(Ap);
     x += step * p;
     r -= step * Ap;
@@ -50,6 +51,20 @@ Vector conjugate_gradients(const SparseMatrix& A, const Vector& b) {
   throw NumericalError("conjugate gradients on a mass matrix of size " + std::to_string(n) +
                        " did not converge in " + std::to_string(max_iterations) +
                        " iterations; check densities and element shapes of the body");
+}
+
+}  // namespace
+
+Vector conjugate_gradients(const SparseMatrix& A, const Vector& b) {
+  return solve_by_products(A.diagonal(), b,
+                           [&A](const Vector& p, Vector& image) { image.noalias() = A * p; });
+}
+
+Vector conjugate_gradients(const SymmetricMatrix& A, const Vector& b) {
+  if (!A.is_divided()) return conjugate_gradients(A.whole(), b);
+  return solve_by_products(A.diagonal(), b, [&A](const Vector& p, Vector& image) {
+    multiply({{&A, &p, &image}});
+  });
 }
 
 }  // namespace buckens::linalg

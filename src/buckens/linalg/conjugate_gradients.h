@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/symmetric_matrix.h"
 
 namespace buckens::linalg {
 
@@ -14,5 +14,7 @@ namespace buckens::linalg {
 /// 1e-14 |b| (or stagnate at rounding) within 50 + 20 √n + n iterations, at most 20
 /// 000
 Vector conjugate_gradients(const SparseMatrix& A, const Vector& b);
+/// The same of a matrix that may be divided among processes.
+Vector conjugate_gradients(const SymmetricMatrix& A, const Vector& b);
 
 }  // namespace buckens::linalg

@@ -7,7 +7,10 @@
 extern "C" {
 
 /// Rises with every change of what stands here.
-enum { kBuckensGridVersion = 4 };
+enum { kBuckensGridVersion = 5 };
+
+/// Products that one order may ask for.
+enum { kBuckensMostProducts = 8 };
 
 /// Some columns of a matrix.
 struct BuckensGridColumns {
@@ -34,6 +37,11 @@ struct BuckensGridMatrix {
   /// which `give` gives the lower triangle only, and neither motions nor options are read. Only for
   /// solvers that several processes share.
   const int* order;
+  /// Numbers and weights of divided matrices of which this one is the sum; null: columns are given.
+  /// Only for factors.
+  const int* terms;
+  const double* weights;
+  int num_terms;
 };
 
 /// When an iteration may stop: ‖r‖ ≤ clamp(absolute, least ‖r₀‖, most ‖r₀‖), in the norm of the
@@ -76,6 +84,15 @@ struct BuckensGridPlugin {
   void (*leave)();
   /// Of the first: zeros where nothing is shared.
   void (*traffic)(BuckensGridTraffic* traffic);
+  /// Of the first: gives all columns of a symmetric matrix to the other processes, which multiply
+  /// by them from then on. Only where there are others. @return its number, -1 after an error
+  int (*divide)(int size, const BuckensGridColumns* all, char* error, int error_size);
+  /// y_k = A_k x_k of divided matrices by one order, at most kBuckensMostProducts.
+  void (*multiply)(int count, const int* matrices, const double* const* x, double* const* y);
+  /// Brings all columns back into arrays of their length; the processes keep theirs.
+  void (*gather)(int matrix, int* starts, int* rows, double* values);
+  /// The others give the memory of a divided matrix back.
+  void (*forget)(int matrix);
 };
 
 /// The one function that a plug-in exports.

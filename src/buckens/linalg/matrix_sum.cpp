@@ -10,12 +10,23 @@ namespace buckens::linalg {
 
 using Eigen::Index;
 
+Index MatrixSum::size() const {
+  if (terms_.empty()) return 0;
+  const Term& first = terms_.front();
+  return first.symmetric != nullptr ? first.symmetric->cols() : first.always_whole->cols();
+}
+
+bool MatrixSum::is_divisible() const {
+  return std::all_of(terms_.begin(), terms_.end(),
+                     [](const Term& term) { return term.symmetric != nullptr; });
+}
+
 template <class Visitor>
 void MatrixSum::visit_column(Index column, Index from, Visitor&& visit) const {
   std::vector<SparseMatrix::InnerIterator> at;
   at.reserve(terms_.size());
   for (const Term& term : terms_) {
-    at.emplace_back(*term.A, column);
+    at.emplace_back(term.whole(), column);
     while (at.back() && at.back().row() < from) ++at.back();
   }
   for (;;) {
@@ -56,19 +67,23 @@ SparseMatrix MatrixSum::columns(Index first, Index count, Triangles which) const
 
 Vector MatrixSum::diagonal() const {
   Vector out = Vector::Zero(size());
-  for (const Term& term : terms_) out += term.weight * term.A->diagonal();
+  for (const Term& term : terms_) {
+    out += term.weight * (term.symmetric != nullptr ? term.symmetric->diagonal()
+                                                    : Vector(term.always_whole->diagonal()));
+  }
   return out;
 }
 
 const SparseMatrix* MatrixSum::widest() const {
   const SparseMatrix* most = nullptr;
   for (const Term& term : terms_) {
-    if (most == nullptr || term.A->nonZeros() > most->nonZeros()) most = term.A;
+    if (most == nullptr || term.whole().nonZeros() > most->nonZeros()) most = &term.whole();
   }
   for (const Term& term : terms_) {
-    for (Index k = 0; k < size() && term.A != most; ++k) {
+    const SparseMatrix& A = term.whole();
+    for (Index k = 0; k < size() && &A != most; ++k) {
       SparseMatrix::InnerIterator wide(*most, k);
-      for (SparseMatrix::InnerIterator it(*term.A, k); it; ++it) {
+      for (SparseMatrix::InnerIterator it(A, k); it; ++it) {
         while (wide && wide.row() < it.row()) ++wide;
         if (!wide || wide.row() != it.row()) return nullptr;
       }
@@ -78,7 +93,10 @@ const SparseMatrix* MatrixSum::widest() const {
 }
 
 void MatrixSum::require_finite() const {
-  for (const Term& term : terms_) linalg::require_finite(*term.A);
+  for (const Term& term : terms_) {
+    const bool was_asked = term.symmetric != nullptr && term.symmetric->is_divided();
+    if (!was_asked) linalg::require_finite(term.whole());
+  }
 }
 
 }  // namespace buckens::linalg

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/symmetric_matrix.h"
 
 namespace buckens::linalg {
 
@@ -14,10 +14,12 @@ enum class Triangles { both, lower };
 class MatrixSum {
  public:
   /// Adds w A. @param A of the size of the others, must outlive this object
-  void add(double weight, const SparseMatrix& A) { terms_.push_back({weight, &A}); }
+  void add(double weight, const SparseMatrix& A) { terms_.push_back({weight, &A, nullptr}); }
+  /// A matrix that may be divided among processes.
+  void add(double weight, const SymmetricMatrix& A) { terms_.push_back({weight, nullptr, &A}); }
 
   /// 0 without terms.
-  Eigen::Index size() const { return terms_.empty() ? 0 : terms_.front().A->cols(); }
+  Eigen::Index size() const;
   /// Some columns, n×count, their rows ascending; takes no more memory than they do. Entries are
   /// summed in the order of the terms, so they have the bits of `w_1 * A_1 + w_2 * A_2 + …`.
   SparseMatrix columns(Eigen::Index first, Eigen::Index count,
@@ -30,12 +32,18 @@ class MatrixSum {
   /// @throws NumericalError if an entry of a term is not finite
   void require_finite() const;
 
- private:
   struct Term {
     double weight;
-    const SparseMatrix* A;
-  };
+    const SparseMatrix* always_whole;  // or null
+    const SymmetricMatrix* symmetric;  // or null
 
+    const SparseMatrix& whole() const { return symmetric ? symmetric->whole() : *always_whole; }
+  };
+  const std::vector<Term>& terms() const { return terms_; }
+  /// Whether all terms can be divided.
+  bool is_divisible() const;
+
+ private:
   /// Calls visit(row, value) for the entries of a column from a row on, rows ascending.
   template <class Visitor>
   void visit_column(Eigen::Index column, Eigen::Index from, Visitor&& visit) const;

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/linalg/divided_matrix.h"
 #include "buckens/linalg/elimination_order.h"
 #include "buckens/linalg/factor_work.h"
 #include "buckens/linalg/grid_library.h"
@@ -57,10 +58,22 @@ class SharedFactor final : public Factor {
     FactorWork work(size_);
     const std::vector<int> order = places_in_factor(A);
     ColumnSource columns(A, Triangles::lower);
+    std::vector<int> terms;
+    std::vector<double> weights;
     BuckensGridMatrix matrix{};
     matrix.size = static_cast<int>(size_);
-    matrix.give = ColumnSource::give;
-    matrix.source = &columns;
+    if (A.is_divisible()) {
+      for (const MatrixSum::Term& term : A.terms()) {
+        terms.push_back(term.symmetric->divide().number());
+        weights.push_back(term.weight);
+      }
+      matrix.terms = terms.data();
+      matrix.weights = weights.data();
+      matrix.num_terms = static_cast<int>(terms.size());
+    } else {
+      matrix.give = ColumnSource::give;
+      matrix.source = &columns;
+    }
     matrix.block = 1;
     matrix.order = order.data();
     std::array<char, 400> error{};

@@ -50,10 +50,11 @@ class Ranks {
 
 /// What makes the factors of bodies unless they iterate: SparseCholesky in this process, or, where
 /// several share the work and A is large, MUMPS, with the factor distributed over all. No process
-/// then holds more of A than the rows of one of them, beside the terms of a sum.
+/// then holds more of A than the rows of one of them.
 /// @throws NumericalError if A is not finite or not positive definite, or memory is too small
 std::shared_ptr<const Factor> make_large_factor(const SparseMatrix& A);
-/// The same of a sum, which is formed whole only if this process factorises it.
+/// The same of a sum, which is formed whole only if this process factorises it. Otherwise its terms
+/// are divided among the others from then on, which form it (SymmetricMatrix).
 std::shared_ptr<const Factor> make_large_factor_of(const MatrixSum& A);
 
 /// Gives columns of a sum to the plug-in (BuckensGridMatrix::give), one run of them at a time.

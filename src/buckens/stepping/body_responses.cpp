@@ -29,7 +29,9 @@ BodyResponses::Source::Source(const linalg::Factor* of, const body::NodalMotion*
     : factor(of), motion(by) {
   linalg::ContentHash hash;
   add_sparse(hash, N);
-  if (part.is_damped()) add_sparse(hash, part.C);
+  if (part.is_damped()) {
+    for (const std::uint64_t number : part.C.content()) hash.add(number);
+  }
   for (const double number : {scheme.mass, scheme.damping, scheme.weight}) {
     hash.add(&number, sizeof number);
   }

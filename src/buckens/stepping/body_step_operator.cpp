@@ -64,8 +64,7 @@ bool have_one_matrix(const Scheme& a, const Scheme& b) {
 }
 
 /// Equal to the last bit.
-template <class Sparse>
-bool are_equal(const Sparse& A, const Sparse& B) {
+bool are_equal(const InterfaceRows& A, const InterfaceRows& B) {
   if (A.rows() != B.rows() || A.nonZeros() != B.nonZeros()) return false;
   const auto same = [](const auto* a, const auto* b, Eigen::Index count) {
     return std::equal(a, a + count, b);
@@ -84,8 +83,8 @@ bool have_same_rigid_modes(const body::FlexiblePart& a, const body::FlexiblePart
 }  // namespace
 
 bool BodyStepOperator::fits(const body::FlexiblePart& part) const {
-  return part.solver == part_->solver && are_equal(part.fe.M, part_->fe.M) &&
-         are_equal(part.fe.K, part_->fe.K) && are_equal(part.C, part_->C);
+  return part.solver == part_->solver && part.fe.M == part_->fe.M && part.fe.K == part_->fe.K &&
+         part.C == part_->C;
 }
 
 bool BodyStepOperator::serves(const body::FlexiblePart& part) const {
@@ -180,8 +179,8 @@ SmallBodyAnswers BodyStepOperator::answers_by_variables() const {
   const Eigen::Index n = inverse_.rows();
   Matrix B = Matrix::Zero(n, n);
   if (scheme_.weight == 1.0) {  // as D − G in the constructor
-    Matrix inertia = scheme_.mass * Matrix(part_->fe.M);
-    if (part_->is_damped()) inertia += scheme_.damping * Matrix(part_->C);
+    Matrix inertia = scheme_.mass * Matrix(part_->fe.M.whole());
+    if (part_->is_damped()) inertia += scheme_.damping * Matrix(part_->C.whole());
     B = inverse_ * (inertia * inverse_) - inverse_;
   }
   return {N_, inverse_, std::move(B)};
@@ -196,6 +195,9 @@ void BodyStepOperator::find_factor(const linalg::MatrixSum& K_hat, const FactorS
     factor_ = twin->factor_;
     why_solver_ = twin->why_solver_;
     is_shared_ = true;
+    part_->fe.M.share(twin->part_->fe.M);
+    part_->fe.K.share(twin->part_->fe.K);
+    part_->C.share(twin->part_->C);
     return;
   }
   const body::SolverDecision decision = body::decide_solver(part_->solver, K_hat);

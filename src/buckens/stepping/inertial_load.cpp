@@ -27,16 +27,17 @@ bool acts_by_node(const body::FlexiblePart& part, const body::NodalInertia& noda
 
 std::optional<double> stiffness_damping(const body::FlexiblePart& part) {
   if (!part.is_damped()) return std::nullopt;
-  const SparseMatrix elastic = part.C - part.fe.mass_damping * part.fe.M;
-  const double size = part.fe.K.squaredNorm();
+  const SparseMatrix& K = part.fe.K;
+  const SparseMatrix elastic = part.C.whole() - part.fe.mass_damping * part.fe.M.whole();
+  const double size = K.squaredNorm();
   if (!(size > 0.0)) return std::nullopt;
   double beta = 0;
   SparseMatrix rest = elastic;
   for (int pass = 0; pass < 2; ++pass) {  // the second takes the rounding of a long sum out
-    beta += rest.cwiseProduct(part.fe.K).sum() / size;
-    rest = elastic - beta * part.fe.K;
+    beta += rest.cwiseProduct(K).sum() / size;
+    rest = elastic - beta * K;
   }
-  if (rest.norm() > kProportional * part.C.norm()) return std::nullopt;
+  if (rest.norm() > kProportional * part.C.whole().norm()) return std::nullopt;
   return beta;
 }
 
@@ -56,8 +57,19 @@ void InertialLoad::multiply_mass(const Vector& x, Vector& y, TaskPool* pool) con
   if (is_by_node_) {
     nodal_.multiply(x, y, pool);
   } else {
-    y.noalias() = part_->fe.M * x;
+    linalg::multiply({{&part_->fe.M, &x, &y}});
   }
+}
+
+void InertialLoad::multiply(const Vector& a, const Vector& b, Vector& y, TaskPool* pool) const {
+  if (is_by_node_ || !part_->C.is_divided()) {
+    multiply_mass(a, y, pool);
+    part_->C.add_product(b, y);
+    return;
+  }
+  Vector damping;
+  linalg::multiply({{&part_->fe.M, &a, &y}, {&part_->C, &b, &damping}});
+  y += damping;
 }
 
 }  // namespace buckens::stepping

@@ -31,10 +31,9 @@ class InertialLoad {
   /// y = M x. Allocates nothing once `y` has its size.
   /// @param pool processes nodes of solids in parallel, with the same result
   void multiply_mass(const linalg::Vector& x, linalg::Vector& y, TaskPool* pool = nullptr) const;
-  /// y ← y + C x.
-  void add_damping(const linalg::Vector& x, linalg::Vector& y) const {
-    y.noalias() += part_->C * x;
-  }
+  /// y = M a + C b.
+  void multiply(const linalg::Vector& a, const linalg::Vector& b, linalg::Vector& y,
+                TaskPool* pool = nullptr) const;
   /// Factor of b added to a: ζ, zero if undamped or not proportionally damped.
   double zeta() const { return zeta_; }
   /// Factor of b added to the solution: β', zero if undamped or not proportionally damped.

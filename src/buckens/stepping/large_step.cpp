@@ -78,8 +78,11 @@ void LargeStep::form_right_side(const model::BodyState& before, const Vector& lo
     });
     return;
   }
-  inertial.multiply_mass(scratch_, free_, pool);
-  if (is_damped_otherwise) inertial.add_damping(damped_, free_);
+  if (is_damped_otherwise) {
+    inertial.multiply(scratch_, damped_, free_, pool);
+  } else {
+    inertial.multiply_mass(scratch_, free_, pool);
+  }
   if (load.size() > 0) rows_.for_pieces(pool, add_load);
 }
 

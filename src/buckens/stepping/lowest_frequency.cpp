@@ -111,11 +111,11 @@ Vector least_combination(const Matrix& M, const Matrix& K) {
 }
 
 /// XᵀA X, column by column: A X would take as much memory as X.
-Matrix projected(const linalg::SparseMatrix& A, const Eigen::Ref<const Matrix>& X) {
+Matrix projected(const linalg::SymmetricMatrix& A, const Eigen::Ref<const Matrix>& X) {
   Matrix out(X.cols(), X.cols());
   Vector image(X.rows());
   for (Eigen::Index k = 0; k < X.cols(); ++k) {
-    image.noalias() = A * X.col(k);
+    image = A * X.col(k);
     out.col(k).noalias() = X.transpose() * image;
   }
   return out;
@@ -154,18 +154,21 @@ bool is_steady(std::span<const double> squares, int k) {
 
 double lowest_frequency(const body::FlexiblePart& part, BodyStepOperator& op) {
   if (part.num_dofs() <= part.sieve.rank()) return 0.0;
-  const linalg::SparseMatrix& M = part.fe.M;
-  const linalg::SparseMatrix& K = part.fe.K;
+  const linalg::SymmetricMatrix& M = part.fe.M;
+  const linalg::SymmetricMatrix& K = part.fe.K;
   // Shape, correction, last way, and what M and K make of them.
   Matrix span(part.num_dofs(), 3), with_M(part.num_dofs(), 3), with_K(part.num_dofs(), 3);
   span.col(0) = smooth_shape(part);
+  Vector product_M, product_K;
   int columns = 1;
   double square = 0;
   std::array<double, kMostSolves + 1> squares{};
   for (int k = 0; k <= kMostSolves; ++k) {
     const int fresh = columns == 1 ? 0 : 1;
-    with_M.col(fresh).noalias() = M * span.col(fresh);
-    with_K.col(fresh).noalias() = K * span.col(fresh);
+    const Vector direction = span.col(fresh);
+    linalg::multiply({{&M, &direction, &product_M}, {&K, &direction, &product_K}});
+    with_M.col(fresh) = product_M;
+    with_K.col(fresh) = product_K;
     Vector best = Vector::Ones(1);
     const auto vectors = span.leftCols(columns);
     if (columns > 1) {

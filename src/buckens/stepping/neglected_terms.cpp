@@ -55,8 +55,13 @@ double neglected_share(const body::Body& body, const BodyStepOperator& op,
               interface_load->head(part.num_interface_rows);
     internal = applied + used.load - inertia;
   } else {
-    internal = part.fe.K * state.d;
-    if (part.is_damped()) internal += part.C * state.d_dot;
+    if (part.is_damped()) {
+      Vector damping;
+      linalg::multiply({{&part.fe.K, &state.d, &internal}, {&part.C, &state.d_dot, &damping}});
+      internal += damping;
+    } else {
+      internal = part.fe.K * state.d;
+    }
     applied = inertia + internal - used.load;
   }
   const double root_J = std::sqrt(body.J0.norm());

@@ -50,7 +50,7 @@ double DampingWork::direct_work(const model::BodyState& s, double h) {
   if (!body_->flexible->is_damped()) return 0.0;
   motion_ = 0.5 * (rates_ + s.d_dot);
   rates_ = s.d_dot;
-  image_.noalias() = body_->flexible->C * motion_;
+  linalg::multiply({{&body_->flexible->C, &motion_, &image_}});
   ++products_;
   return h * motion_.dot(image_);
 }

@@ -132,7 +132,8 @@ void SystemPencil::factorise(double mu) {
     const fem::FeModel& fe = body.flexible->fe;
     const body::Sieve& sieve = body.flexible->sieve;
     try {
-      block.factor = body::solver_of(*body.flexible)(SparseMatrix(fe.K + mu * fe.M));
+      block.factor =
+          body::solver_of(*body.flexible)(SparseMatrix(fe.K.whole() + mu * fe.M.whole()));
     } catch (const NumericalError& error) {
       throw NumericalError("body \"" + body.name + "\": " + error.text());
     }

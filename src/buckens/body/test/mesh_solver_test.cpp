@@ -88,7 +88,7 @@ TEST_F(IterativeMeshTest, SolvesLikeAFactor) {
   for (const char* options :
        {"", "-pc_gamg_threshold 0.01", "-pc_type jacobi", "-ksp_type preonly -pc_type cholesky"}) {
     const auto body = part({6, 4, 4}, {SolverKind::iterative, options});
-    const SparseMatrix A = body->fe.K + 1e5 * body->fe.M;
+    const SparseMatrix A = body->fe.K.whole() + 1e5 * body->fe.M.whole();
     const Vector load = Vector::LinSpaced(A.rows(), -1.0, 1.0).cwiseAbs2();
     const Matrix found = solver_of(*body)(A)->solve(Matrix(load));
     const Matrix expected = linalg::SparseCholesky(A).solve(Matrix(load));
@@ -103,7 +103,7 @@ TEST_F(IterativeMeshTest, SolvesLikeAFactor) {
 TEST_F(IterativeMeshTest, UnknownOptionsAreNamed) {
   const auto body = part({2, 2, 2}, {SolverKind::iterative, "-pc_gamg_treshold 0.01 -ksp_rtol 1"});
   try {
-    make_iterative(*body, body->fe.K + 1e5 * body->fe.M);
+    make_iterative(*body, body->fe.K.whole() + 1e5 * body->fe.M.whole());
     FAIL();
   } catch (const NumericalError& error) {
     const std::string text = error.what();
@@ -115,7 +115,8 @@ TEST_F(IterativeMeshTest, UnknownOptionsAreNamed) {
 
 TEST_F(IterativeMeshTest, AndSoDoNamesThatPetscRefuses) {
   const auto body = part({2, 2, 2}, {SolverKind::iterative, "-pc_type magic"});
-  EXPECT_THROW(make_iterative(*body, body->fe.K + 1e5 * body->fe.M), NumericalError);
+  EXPECT_THROW(make_iterative(*body, body->fe.K.whole() + 1e5 * body->fe.M.whole()),
+               NumericalError);
 }
 
 TEST_F(IterativeMeshTest, FindsTheModesOfAFactor) {

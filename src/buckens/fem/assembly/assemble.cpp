@@ -199,14 +199,15 @@ void integrate_inertia(const Blocks& blocks, const MeshView& mesh, FeModel& fe) 
   shape.c = std::move(sum.c);
   shape.C0 = sum.C0;
   shape.J0 = sum.C0.trace() * Eigen::Matrix3d::Identity() - sum.C0 + sum.J0_flywheel;
-  fe.M = shape.W[0] + shape.W[1];
-  fe.M += shape.W[2];
-  fe.M += to_sparse(n, sum.M_flywheel);
+  SparseMatrix M = shape.W[0] + shape.W[1];
+  M += shape.W[2];
+  M += to_sparse(n, sum.M_flywheel);
   if (!sum.nodal.empty()) {
     shape.nodal = nodal_mass(mesh, sum.nodal);
-    fe.M += to_sparse(n, expand(shape.nodal));
+    M += to_sparse(n, expand(shape.nodal));
   }
-  fe.M.makeCompressed();
+  M.makeCompressed();
+  fe.M = std::move(M);
 }
 
 }  // namespace
@@ -230,8 +231,8 @@ FeModel assemble(const Structure& structure, std::optional<spatial::Plane> plana
 
   integrate_inertia(fe.blocks, mesh, fe);
   StiffnessMatrices stiffness = assemble_stiffness(fe.blocks, mesh);
-  fe.K.swap(stiffness.K);
-  fe.K_damping.swap(stiffness.K_damping);
+  fe.K = std::move(stiffness.K);
+  fe.K_damping = std::move(stiffness.K_damping);
   set_mass_damping(fe);
   return fe;
 }

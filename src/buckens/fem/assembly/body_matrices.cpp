@@ -134,18 +134,18 @@ FeModel assemble(const BodyMatrices& body, const RayleighFactors& damping) {
   check_free(body, body.K, body.K.norm(), Phi, "stiffness");
   fe.mass_damping = damping.mass;
   fe.damps_held_motion = damping.damps_held_motion;
-  fe.K_damping.resize(body.dofs.num_dofs, body.dofs.num_dofs);
+  fe.K_damping = SparseMatrix(body.dofs.num_dofs, body.dofs.num_dofs);
   if (body.C.nonZeros() > 0 && body.C.norm() > 0.0) {
     check_minors(body, body.C, "damping");
     // What resists translation must be α M.
     const double drag = Phi.col(0).dot(body.C * Phi.col(0));
     const bool is_free = drag <= kStrainTolerance * body.C.norm() * Phi.col(0).squaredNorm();
     fe.mass_damping = is_free ? 0.0 : drag / fe.shape.mass;
-    fe.K_damping = body.C - fe.mass_damping * body.M;
+    fe.K_damping = SparseMatrix(body.C - fe.mass_damping * body.M);
     // Of C = α M only rounding is left.
     check_free(body, fe.K_damping, body.C.norm(), Phi, "damping");
   } else if (damping.stiffness > 0.0) {
-    fe.K_damping = damping.stiffness * body.K;
+    fe.K_damping = SparseMatrix(damping.stiffness * body.K);
   }
   return fe;
 }

@@ -19,9 +19,10 @@ std::vector<std::vector<int>> neighbours(const FeModel& fe) {
     }
   }
   std::vector<std::vector<int>> out(fe.nodes.size());
-  for (int column = 0; column < fe.K.outerSize(); ++column) {
+  const linalg::SparseMatrix& K = fe.K;
+  for (int column = 0; column < K.outerSize(); ++column) {
     const int own = node_of[static_cast<std::size_t>(column)];
-    for (linalg::SparseMatrix::InnerIterator it(fe.K, column); it; ++it) {
+    for (linalg::SparseMatrix::InnerIterator it(K, column); it; ++it) {
       const int other = node_of[static_cast<std::size_t>(it.row())];
       if (other != own && it.value() != 0.0) out[static_cast<std::size_t>(own)].push_back(other);
     }

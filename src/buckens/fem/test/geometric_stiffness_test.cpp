@@ -41,7 +41,7 @@ TEST(GeometricStiffness, FindsTheBucklingLoadOfACantilever) {
     EXPECT_LT((G - G.transpose()).norm(), 1e-14 * G.norm());
     // The clamped node is the first; node "b" is the second.
     const Eigen::Index free = fe.M.rows() - 6;
-    const Matrix K = Matrix(fe.K).bottomRightCorner(free, free);
+    const Matrix K = Matrix(fe.K.whole()).bottomRightCorner(free, free);
     const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eigen(G.bottomRightCorner(free, free),
                                                                  K);
     EXPECT_NEAR(1.0 / eigen.eigenvalues().maxCoeff(), expected, 1e-4 * expected);

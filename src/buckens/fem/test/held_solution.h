@@ -20,11 +20,11 @@ inline linalg::Vector solve(const FeModel& fe, const linalg::Vector& f,
   const linalg::Vector load = f - fe.K * d;
   std::vector<linalg::Triplet> entries;
   linalg::Vector x(free);
-  for (int column = 0; column < fe.K.outerSize(); ++column) {
+  for (int column = 0; column < fe.K.whole().outerSize(); ++column) {
     const int j = number[static_cast<std::size_t>(column)];
     if (j < 0) continue;
     x[j] = load[column];
-    for (linalg::SparseMatrix::InnerIterator it(fe.K, column); it; ++it) {
+    for (linalg::SparseMatrix::InnerIterator it(fe.K.whole(), column); it; ++it) {
       const int i = number[static_cast<std::size_t>(it.row())];
       if (i >= 0) entries.emplace_back(i, j, it.value());
     }

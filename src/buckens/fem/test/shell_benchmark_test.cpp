@@ -117,8 +117,8 @@ Eigen::VectorXd free_plate(ShellKind kind, int n) {
   // The bending of a flat plate alone: u_z, θ_x, θ_y.
   std::vector<Eigen::Index> kept;
   for (const auto& dofs : fe.dofs.node_dofs) kept.insert(kept.end(), {dofs[2], dofs[3], dofs[4]});
-  const Eigen::MatrixXd K = Eigen::MatrixXd(fe.K)(kept, kept);
-  const Eigen::MatrixXd M = Eigen::MatrixXd(fe.M)(kept, kept);
+  const Eigen::MatrixXd K = Eigen::MatrixXd(fe.K.whole())(kept, kept);
+  const Eigen::MatrixXd M = Eigen::MatrixXd(fe.M.whole())(kept, kept);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K, M,
                                                                         Eigen::EigenvaluesOnly);
   return eigen.eigenvalues().segment(3, 8).cwiseSqrt() / (2 * kPi);
@@ -143,8 +143,8 @@ Eigen::Vector4d supported_plate(ShellKind kind, int n) {
       if (!held.given[static_cast<std::size_t>(dof)]) kept.push_back(dof);
     }
   }
-  const Eigen::MatrixXd K = Eigen::MatrixXd(fe.K)(kept, kept);
-  const Eigen::MatrixXd M = Eigen::MatrixXd(fe.M)(kept, kept);
+  const Eigen::MatrixXd K = Eigen::MatrixXd(fe.K.whole())(kept, kept);
+  const Eigen::MatrixXd M = Eigen::MatrixXd(fe.M.whole())(kept, kept);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K, M,
                                                                         Eigen::EigenvaluesOnly);
   const double D = 200e9 * h * h * h / 12 / 0.91;

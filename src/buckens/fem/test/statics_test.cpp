@@ -37,7 +37,7 @@ struct Cantilever {
     Vector f = Vector::Zero(n);
     f.segment<3>(6) = R * load.head<3>();
     f.segment<3>(9) = R * load.tail<3>();
-    const Matrix K = fe.K;
+    const Matrix K = fe.K.whole();
     d = Vector::Zero(n);
     d.tail(n - 6) = K.bottomRightCorner(n - 6, n - 6).ldlt().solve(f.tail(n - 6));
   }

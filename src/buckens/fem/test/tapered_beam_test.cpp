@@ -209,8 +209,8 @@ double first_frequency(const BeamProperties& properties, int elements) {
   for (std::size_t n = 1; n < fe.dofs.node_dofs.size(); ++n) {
     for (const int dof : fe.dofs.node_dofs[n]) kept.push_back(dof);
   }
-  const Eigen::MatrixXd K = Eigen::MatrixXd(fe.K)(kept, kept),
-                        M = Eigen::MatrixXd(fe.M)(kept, kept);
+  const Eigen::MatrixXd K = Eigen::MatrixXd(fe.K.whole())(kept, kept),
+                        M = Eigen::MatrixXd(fe.M.whole())(kept, kept);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(K, M,
                                                                         Eigen::EigenvaluesOnly);
   return std::sqrt(eigen.eigenvalues()[0]);
@@ -338,7 +338,7 @@ TEST(CurvedBeam, RingsVibrateByTheirFormulaWithSecondOrder) {
     add_curved_beam(s, b, a, BeamPath::arc, {{0, -1, 0}}, elements / 2, round);
     const FeModel fe = assemble(s, spatial::Plane::xy);
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-        Eigen::MatrixXd(fe.K), Eigen::MatrixXd(fe.M), Eigen::EigenvaluesOnly);
+        Eigen::MatrixXd(fe.K.whole()), Eigen::MatrixXd(fe.M.whole()), Eigen::EigenvaluesOnly);
     return Eigen::VectorXd(eigen.eigenvalues().segment(3, 4).cwiseSqrt());
   };
   const Eigen::VectorXd coarse = ring(48), fine = ring(96);

@@ -108,6 +108,10 @@ class Builder {
     settle_massless_rotations(model_, d.simulation ? d.simulation->duration : 0.0);
     reduce_bodies(out_->description, model_, bases_);
     hold_damping(model_);
+    // C contains it.
+    for (body::Body& body : model_.bodies) {
+      if (body.is_flexible()) body.flexible->fe.K_damping = linalg::SymmetricMatrix();
+    }
     return std::move(out_);
   }
 

@@ -271,11 +271,11 @@ void StrandMechanism::fill_mesh(std::size_t b, BodyStepOperator& op, double* fix
     op.solve_right_side(unit);
     inverse.col(j) = unit;
   }
-  Matrix inertia = op.scheme().mass * Matrix(part.fe.M);
-  if (part.is_damped()) inertia += op.scheme().damping * Matrix(part.C);
+  Matrix inertia = op.scheme().mass * Matrix(part.fe.M.whole());
+  if (part.is_damped()) inertia += op.scheme().damping * Matrix(part.C.whole());
   set_matrix(Fixed::A, inverse);
   set_matrix(Fixed::B, inverse * (inertia * inverse) - inverse);
-  set_matrix(Fixed::Mass, Matrix(part.fe.M));
+  set_matrix(Fixed::Mass, Matrix(part.fe.M.whole()));
   for (int k = 0; k < part.sieve.Phi().cols(); ++k) {
     set_vector(Fixed::Phi + k * N, part.sieve.Phi().col(k));
     set_vector(Fixed::Pi + k * N, part.sieve.P().col(k));

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/linalg/symmetric_matrix.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "buckens/linalg/content_hash.h"
+#include "buckens/linalg/divided_matrix.h"
+
+namespace buckens::linalg {
+
+namespace {
+
+std::array<std::uint64_t, 2> content_of(const SparseMatrix& A) {
+  ContentHash hash;
+  const auto add = [&](const auto* from, Eigen::Index count) {
+    hash.add(from, sizeof(*from) * static_cast<std::size_t>(count));
+  };
+  add(A.valuePtr(), A.nonZeros());
+  add(A.innerIndexPtr(), A.nonZeros());
+  add(A.outerIndexPtr(), A.outerSize() + 1);
+  return hash.value();
+}
+
+bool have_same_bits(const SparseMatrix& A, const SparseMatrix& B) {
+  if (A.rows() != B.rows() || A.nonZeros() != B.nonZeros()) return false;
+  const auto same = [](const auto* a, const auto* b, Eigen::Index count) {
+    return std::equal(a, a + count, b);
+  };
+  return same(A.valuePtr(), B.valuePtr(), A.nonZeros()) &&
+         same(A.innerIndexPtr(), B.innerIndexPtr(), A.nonZeros()) &&
+         same(A.outerIndexPtr(), B.outerIndexPtr(), A.outerSize() + 1);
+}
+
+}  // namespace
+
+Eigen::Index SymmetricMatrix::nonZeros() const {
+  return divided_ ? divided_->entries() : here_.nonZeros();
+}
+
+Vector SymmetricMatrix::diagonal() const {
+  return divided_ ? divided_->diagonal() : Vector(here_.diagonal());
+}
+
+const SparseMatrix& SymmetricMatrix::whole() const {
+  if (divided_) {
+    SparseMatrix A = divided_->gathered();
+    here_.swap(A);
+    divided_.reset();
+  }
+  return here_;
+}
+
+bool SymmetricMatrix::operator==(const SymmetricMatrix& other) const {
+  if (!divided_ && !other.divided_) return have_same_bits(here_, other.here_);
+  return rows() == other.rows() && nonZeros() == other.nonZeros() &&
+         (divided_ == other.divided_ || content() == other.content());
+}
+
+std::array<std::uint64_t, 2> SymmetricMatrix::content() const {
+  return divided_ ? divided_->content() : content_of(here_);
+}
+
+const DividedMatrix& SymmetricMatrix::divide() const {
+  if (!divided_) {
+    divided_ = std::make_shared<const DividedMatrix>(here_, content_of(here_));
+    drop();
+  }
+  return *divided_;
+}
+
+void SymmetricMatrix::share(const SymmetricMatrix& equal) const {
+  if (!equal.divided_ || divided_) return;
+  divided_ = equal.divided_;
+  drop();
+}
+
+void SymmetricMatrix::drop() const {
+  SparseMatrix nothing(here_.rows(), here_.cols());
+  here_.swap(nothing);
+}
+
+void SymmetricMatrix::add_product(const Vector& x, Vector& y) const {
+  if (divided_) {
+    y += *this * x;
+  } else {
+    y.noalias() += here_ * x;
+  }
+}
+
+void SymmetricMatrix::multiply(const double* x, double* y) const {
+  const DividedMatrix::Product product{divided_.get(), x, y};
+  DividedMatrix::multiply({&product, 1});
+}
+
+void multiply(std::initializer_list<MatrixProduct> products) {
+  std::vector<DividedMatrix::Product> elsewhere;
+  for (const MatrixProduct& product : products) {
+    product.y->resize(product.A->rows());
+    if (product.A->is_divided()) {
+      elsewhere.push_back({&product.A->divide(), product.x->data(), product.y->data()});
+    } else {
+      product.y->noalias() = product.A->whole() * *product.x;
+    }
+  }
+  DividedMatrix::multiply(elsewhere);
+}
+
+}  // namespace buckens::linalg

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <utility>
+
+#include "buckens/linalg/matrix_types.h"
+
+namespace buckens::linalg {
+
+class DividedMatrix;
+
+/// A sparse symmetric matrix, both triangles stored, such as M, K and C of a body.
+///
+/// Where several processes share the work it may be divided among those other than the first
+/// (ranks.h): make_large_factor_of() does so with the terms of a sum. That changes where its
+/// numbers are and not what they are, so it is possible with constant objects, too. Products then
+/// go over those processes; whole() brings it back. In a process by itself it is always whole, and
+/// products are those of Eigen.
+class SymmetricMatrix {
+ public:
+  SymmetricMatrix() = default;
+  // NOLINTBEGIN(google-explicit-constructor): they are one
+  SymmetricMatrix(const SparseMatrix& A) : here_(A) {}
+  SymmetricMatrix(SparseMatrix&& A) { here_.swap(A); }
+  // NOLINTEND(google-explicit-constructor)
+  SymmetricMatrix(const SymmetricMatrix&) = default;
+  SymmetricMatrix& operator=(const SymmetricMatrix&) = default;
+  // Eigen's own moves copy.
+  SymmetricMatrix(SymmetricMatrix&& from) noexcept { *this = std::move(from); }
+  SymmetricMatrix& operator=(SymmetricMatrix&& from) noexcept {
+    here_.swap(from.here_);
+    divided_.swap(from.divided_);
+    return *this;
+  }
+  ~SymmetricMatrix() = default;
+
+  Eigen::Index rows() const { return here_.rows(); }
+  Eigen::Index cols() const { return here_.cols(); }
+  Eigen::Index nonZeros() const;
+  Vector diagonal() const;
+
+  /// In this process, from now on. The reference ends with the next divide().
+  const SparseMatrix& whole() const;
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  operator const SparseMatrix&() const { return whole(); }
+
+  /// A X, column by column where A is divided.
+  template <class Derived>
+  auto operator*(const Eigen::MatrixBase<Derived>& X) const {
+    Eigen::Matrix<double, Eigen::Dynamic, Derived::ColsAtCompileTime> out(rows(), X.cols());
+    if (is_divided()) {
+      const Eigen::Matrix<double, Eigen::Dynamic, Derived::ColsAtCompileTime> columns = X;
+      for (Eigen::Index k = 0; k < out.cols(); ++k) {
+        multiply(columns.data() + k * columns.rows(), out.data() + k * out.rows());
+      }
+    } else {
+      out.noalias() = here_ * X.derived();
+    }
+    return out;
+  }
+
+  /// y ← y + A x
+  void add_product(const Vector& x, Vector& y) const;
+
+  /// Whether they have the same bits.
+  bool operator==(const SymmetricMatrix& other) const;
+  /// Hash of pattern and values.
+  std::array<std::uint64_t, 2> content() const;
+
+  /// Gives the rows to the other processes, unless they have them. @pre Ranks::count() > 1
+  /// @throws NumericalError if memory is too small
+  const DividedMatrix& divide() const;
+  /// Has the rows of an equal matrix from now on, where other processes have those.
+  void share(const SymmetricMatrix& equal) const;
+  bool is_divided() const { return divided_ != nullptr; }
+
+ private:
+  void multiply(const double* x, double* y) const;
+  void drop() const;
+
+  mutable SparseMatrix here_;  // without entries where it is divided
+  mutable std::shared_ptr<const DividedMatrix> divided_;
+};
+
+/// y = A x, of vectors of its length.
+struct MatrixProduct {
+  const SymmetricMatrix* A;
+  const Vector* x;
+  Vector* y;
+};
+/// Several products, by one order to other processes where matrices are divided. Allocates nothing
+/// in a process by itself once all y have their size.
+void multiply(std::initializer_list<MatrixProduct> products);
+
+}  // namespace buckens::linalg
