@@ -7,6 +7,7 @@
 #include <new>
 #include <string>
 
+#include <malloc.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -151,6 +152,8 @@ bool MumpsFactor::set_aside(double margin) {
 }
 
 bool MumpsFactor::factorise() {
+  // Of the analysis and of what came before, while MPI keeps the allocator from doing so.
+  (void)malloc_trim(0);
   for (double margin = kFirstMargin;; margin *= 2) {
     if (!set_aside(margin)) return false;
     if (run(kFactorise)) break;

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/free_memory.h"
 #include "buckens/linalg/divided_matrix.h"
 #include "buckens/linalg/elimination_order.h"
 #include "buckens/linalg/factor_work.h"
@@ -67,6 +68,7 @@ class SharedFactor final : public Factor {
         terms.push_back(term.symmetric->divide().number());
         weights.push_back(term.weight);
       }
+      base::return_free_memory();
       matrix.terms = terms.data();
       matrix.weights = weights.data();
       matrix.num_terms = static_cast<int>(terms.size());
