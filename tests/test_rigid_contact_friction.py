@@ -359,14 +359,18 @@ output: {every: 0.5 ms, sensors: {p: {position: arm}, v: {velocity: arm}, lost: 
 
 
 @pytest.mark.parametrize("friction", [1.4, 0.9, 0.2])
-def test_a_pendulum_that_friction_holds_does_not_bounce(sensors, friction):
+def test_a_pendulum_that_friction_holds_does_not_bounce(sensors, tmp_path, friction):
     """It strikes with one way to move; beyond 0.7, the ratio of the arms about the pin, friction holds all that would part."""
     out = sensors(PINNED.replace("MU", str(friction)))
     struck = numpy.argmax(out["lost"] > 0)
     before = 9.81 * (0.12 - out["p.z"][struck])
     assert numpy.abs(out["balance"]).max() < 1e-3 * before
+    told = json.loads((tmp_path / "out" / "summary.json").read_text())
     if friction < 0.7:
         assert 0.2 * before < out["lost"][struck] < 0.9 * before and out["v.z"][struck:].max() > 0.1
+        assert "jammed_impacts" not in told["measures"] and not told["warnings"]
         return
+    assert told["measures"]["jammed_impacts"] == 1
+    assert "friction jammed" in told["warnings"][0] and "without a rebound" in told["warnings"][0]
     assert out["lost"][-1] == pytest.approx(9.81 * 0.02, rel=1e-2)  # it stops within half a step's way of the floor
     assert numpy.abs(out["v.z"][struck + 2:]).max() < 1e-9

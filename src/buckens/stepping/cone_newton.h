@@ -14,6 +14,11 @@ struct ConeRows {
   double coefficient = 0;  ///< μ
 };
 
+/// What impulses of friction do at most to one rate, by the rates that they are to change: beyond
+/// it they cancel out to more digits than half of theirs. Rows hold the same there, and friction
+/// jams.
+inline constexpr double kMostCancelled = 1e8;
+
 /// How the force of a place slides along its cone: most · towards, of which `turns` is the
 /// derivative with respect to the force on trial.
 struct SlidingCone {

@@ -26,14 +26,12 @@ constexpr double kRoundingOfRates = 1e-10;
 // Answers by this share of the largest answer of all.
 constexpr double kNoAnswerOfPlace = 1e-12;
 constexpr int kMostNewtonRounds = 12;
-constexpr int kSweepsBetween = 20;     // place by place, between Newton's
-constexpr int kMostAgreements = 50;    // rounds of across and along
-constexpr int kMostSlipSweeps = 1000;  // over those along, per round
-constexpr int kMostSweeps = 500;       // place by place
-constexpr int kMostHalfSweeps = 2000;  // the same by half of each change
-constexpr int kMostBlows = 10000;      // in turn
-// What impulses do by that of all together: beyond it, half of the digits are lost.
-constexpr double kMostCancelled = 1e8;
+constexpr int kSweepsBetween = 20;        // place by place, between Newton's
+constexpr int kMostAgreements = 50;       // rounds of across and along
+constexpr int kMostSlipSweeps = 1000;     // over those along, per round
+constexpr int kMostSweeps = 500;          // place by place
+constexpr int kMostHalfSweeps = 2000;     // the same by half of each change
+constexpr int kMostBlows = 10000;         // in turn
 constexpr Eigen::Index kMostDense = 150;  // rows; more of them as a sparse system
 
 /// The places that are struck, each with its rows: across, then along.

@@ -120,7 +120,7 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
   length_ = dynamics::rounding_length(model_, motions);
   shares_.clear();
   loss_ = 0;
-  count_ = 0;
+  count_ = jammed_ = 0;
   signals_ = dynamics::signals_of(around);
   bool is_struck = false;
   for (std::size_t k = 0; k < laws_.size(); ++k)
@@ -524,6 +524,9 @@ void Impacts::land(const Vector& P, const Vector& jump) {
     const auto i = static_cast<Eigen::Index>(k);
     if (touch.approach > 0.0) {
       ++count_;
+      const Law& law = laws_[touch.law];
+      const bool is_jammed = touch.strikes && !law.bounces;
+      if (is_jammed && law.law->restitution(touch.approach, signals_) > 0.0) ++jammed_;
       lose(laws_[touch.law].load,
            0.5 * touch.lost_share * P[i] * (touch.approach - touch.met - jump[i]));
     }

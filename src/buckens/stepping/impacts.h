@@ -68,6 +68,8 @@ class Impacts {
   /// What of it each of the laws lost.
   const std::vector<ImpactShare>& shares() const { return shares_; }
   int count() const { return count_; }
+  /// Of them, those that should have rebounded, and were stopped since friction jams.
+  int jammed() const { return jammed_; }
   /// From their mean instant, weighted by their strength, to the end of the step [s].
   double rest() const { return rest_; }
 
@@ -202,7 +204,7 @@ class Impacts {
   std::vector<ImpactShare> shares_;
   double length_ = 0;  // of positions in the step looked at last [m]
   double loss_ = 0, rest_ = 0;
-  int count_ = 0;
+  int count_ = 0, jammed_ = 0;
 };
 
 }  // namespace buckens::stepping

@@ -22,6 +22,7 @@ constexpr int kNewtonsInRound = 15;
 constexpr int kIdleNewtons = 3;  // in a row that gain nothing
 constexpr int kSweepsInRound = 50;
 constexpr int kLastSweeps = 5000;
+constexpr int kMostJams = 3;  // rounds in which a place jams by itself
 // Residuals by this share of what impulses do are rounding, and those that may be where they fall
 // no further.
 constexpr double kClosed = 1e-13;
@@ -44,6 +45,7 @@ class ManyPlaces {
         none_(kAnswersNothing * Vector(D.diagonal()).maxCoeff()),
         F_(b.size()) {
     for (const ConeRows& place : places) {
+      rubs_ = rubs_ || place.rows.size() > 1;
       const auto n = std::ssize(place.rows);
       Matrix B(n, n);
       for (Eigen::Index i = 0; i < n; ++i) {
@@ -60,12 +62,20 @@ class ManyPlaces {
 
   Vector solve() {
     Vector P = Vector::Zero(b_.size());
+    int jams = 0;
     for (int round = 0; round < kRounds; ++round) {
-      if (sweep(P, round % 2 == 0 ? 1.0 : 0.5, kSweepsInRound)) return P;
+      try {
+        const double share = round % 2 == 0 ? 1.0 : 0.5;
+        if (sweep(P, share, kSweepsInRound) && is_good(P)) return P;
+      } catch (const StepFailure&) {  // one place by itself, with what the others do so far
+        if (++jams == kMostJams) throw;
+      }
       Vector trial = P;
-      if (find_by_newton(trial)) return trial;
+      if (find_by_newton(trial) && is_good(trial)) return trial;
+      if (!is_good(P)) P.setZero();
     }
-    if (sweep(P, 1.0, kLastSweeps) || open(P) <= kNearlyClosed * size_of(P)) return P;
+    const bool is_closed = sweep(P, 1.0, kLastSweeps) || open(P) <= kNearlyClosed * size_of(P);
+    if (is_closed && is_good(P)) return P;
     throw StepFailure(fmt::format(
         "no impulses were found that satisfy all {} rigid contacts that press each other at once; "
         "give them a `stiffness`, or less `static`",
@@ -76,6 +86,10 @@ class ManyPlaces {
   /// What impulses do to the rates at most.
   double size_of(const Vector& P) const {
     return std::max((sizes_ * P.cwiseAbs()).maxCoeff(), b_.cwiseAbs().maxCoeff());
+  }
+  /// Whether impulses do not just cancel each other, as where friction jams.
+  bool is_good(const Vector& P) const {
+    return !rubs_ || size_of(P) <= kMostCancelled * b_.cwiseAbs().maxCoeff();
   }
   /// What is open of the equations [m/s].
   double open(const Vector& P) {
@@ -191,6 +205,7 @@ class ManyPlaces {
   const Vector& b_;
   const std::vector<ConeRows>& places_;
   double none_;
+  bool rubs_ = false;  // any of the places
   std::vector<Matrix> answers_;
   std::vector<double> scales_;
   Vector F_;

@@ -14,7 +14,8 @@ namespace buckens::stepping {
 /// it gains nothing: the cost of both follows the number of pairs of places on a common body. What
 /// places share is not quite shared alike.
 /// @param D of all rows, positive semidefinite
-/// @throws StepFailure where both do not come to an end
+/// @throws StepFailure where both do not come to an end, or only with impulses that cancel each
+/// other: friction that jams
 linalg::Vector solve_large_impact(const linalg::SparseMatrix& D, const linalg::Vector& b,
                                   const std::vector<ConeRows>& places);
 

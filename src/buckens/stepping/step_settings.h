@@ -61,12 +61,14 @@ struct StepReport {
   double velocity_residual = 0;  ///< max |ġ|
   int worst_row = -1;            ///< of λ, where |g| is largest
   /// The same for all rows on one scale: lengths as fractions of the model's length, angles in rad.
-  double opening = 0;                            ///< [-]
-  double opening_rate = 0;                       ///< [1/s]
-  int most_open_row = -1;                        ///< of λ, where the opening is largest
-  double coupling_change = 0;                    ///< last relative change of the coupling load
-  int impacts = 0;                               ///< against rigid stops
-  double impact_loss = 0;                        ///< energy lost in them [J]
+  double opening = 0;          ///< [-]
+  double opening_rate = 0;     ///< [1/s]
+  int most_open_row = -1;      ///< of λ, where the opening is largest
+  double coupling_change = 0;  ///< last relative change of the coupling load
+  int impacts = 0;             ///< against rigid stops
+  double impact_loss = 0;      ///< energy lost in them [J]
+  /// Of them, those that should have rebounded and were stopped, since friction jams.
+  int jammed_impacts = 0;
   std::span<const ImpactShare> impact_shares{};  ///< of the loss, valid until the next step
   double impact_rest = 0;  ///< from their mean instant to the end of the step [s]
   /// Whether accelerations have jumped, so that they have to be found anew at the end of the step:

@@ -320,6 +320,7 @@ void Stepper::take_impacts(StepReport& report) {
   next_.history = 0;  // what coupling loads were no longer tells what they will be
   report.impacts = impacts_->count();
   report.impact_loss = impacts_->loss();
+  report.jammed_impacts = impacts_->jammed();
   report.impact_shares = impacts_->shares();
   report.impact_rest = impacts_->rest();
   report.must_settle = true;

@@ -22,6 +22,15 @@ std::string describe_undecided(long undecided, long steps) {
       "smaller step or a `stiffness` if it is open",
       undecided, steps);
 }
+
+std::string describe_jammed(long jammed, long impacts) {
+  return fmt::format(
+      "in {} of {} impacts on rigid contacts and stops friction jammed: no impulses both stop the "
+      "slip and part the bodies with their `restitution`, so that they were stopped without a "
+      "rebound, and what it would have given back was lost; give these contacts less `static`, no "
+      "`restitution`, or a `stiffness` if they should rebound",
+      jammed, impacts);
+}
 }  // namespace
 
 RunStatistics::RunStatistics(const model::BuiltModel& built)
@@ -47,6 +56,7 @@ void RunStatistics::add_step(const stepping::StepReport& report, const model::St
   if (report.large_solve_rounds > 1) ++repeated_solves_;
   if (report.has_undecided_rows) ++undecided_steps_;
   impacts_ += report.impacts;
+  jammed_impacts_ += report.jammed_impacts;
   impact_loss_ += report.impact_loss;
   joints_.add_step(report, state);
   residuals_.position = std::max(residuals_.position, report.position_residual);
@@ -196,6 +206,10 @@ void RunStatistics::fill(const stepping::TimeMarch& march, results::RunSummary& 
   if (impacts_ > 0) {
     summary.measures.emplace_back("impacts", static_cast<double>(impacts_));
     summary.measures.emplace_back("impact_loss", impact_loss_);
+  }
+  if (jammed_impacts_ > 0) {
+    summary.measures.emplace_back("jammed_impacts", static_cast<double>(jammed_impacts_));
+    summary.warnings.push_back(describe_jammed(jammed_impacts_, impacts_));
   }
   if (undecided_steps_ > 0) {
     summary.measures.emplace_back("undecided_steps", static_cast<double>(undecided_steps_));

@@ -52,7 +52,8 @@ class RunStatistics {
   long repeated_solves_ = 0;  // steps with more than one large solve
   long undecided_steps_ = 0;  // that took the last stands of rigid rows
   long impacts_ = 0;
-  double impact_loss_ = 0;  // [J]
+  long jammed_impacts_ = 0;  // that friction kept from rebounding
+  double impact_loss_ = 0;   // [J]
   results::Residuals residuals_;
   JointTrust joints_;
   EnergyTrust energy_;

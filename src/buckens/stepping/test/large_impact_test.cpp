@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/stepping/friction_impulses.h"
+#include "buckens/stepping/step_failure.h"
 
 namespace buckens::stepping {
 namespace {
@@ -125,6 +126,51 @@ TEST(LargeImpact, IsWhatTheDenseOneIs) {
   const Vector dense = solve_impact(entries, balls.b(order), std::ssize(balls.places), slips);
   // Rates are unique to what both leave open.
   EXPECT_NEAR((D * (dense - P(order))).cwiseAbs().maxCoeff(), 0, 1e-9);
+}
+
+/// Pendulums that strike with one way to move each, as in FrictionImpulses, and press the next one
+/// a little: friction of 1.4 holds what restitution would part.
+struct JammedRow {
+  static constexpr Eigen::Index kCount = 80;
+  linalg::SparseMatrix D;
+  Vector stops, bounces;
+  std::vector<ImpactSlip> slips;
+  std::vector<ConeRows> places;
+
+  JammedRow() {
+    const Eigen::Vector2d way(1.0, 1.5);
+    Matrix J = Matrix::Zero(2 * kCount, kCount);  // across, then along
+    for (Eigen::Index k = 0; k < kCount; ++k) {
+      J(k, k) = way[0];
+      J(kCount + k, k) = way[1];
+      if (k + 1 == kCount) continue;
+      J(k, k + 1) = -0.1 * way[0];
+      J(kCount + k, k + 1) = -0.1 * way[1];
+    }
+    D = Matrix(0.38 * J * J.transpose()).sparseView();
+    stops = 0.4 * J * Vector::Ones(kCount);
+    bounces = stops;
+    bounces[0] += 0.2;
+    for (Eigen::Index k = 0; k < kCount; ++k) {
+      slips.push_back({k, kCount + k, 1, 1.4});
+      places.push_back({{k, kCount + k}, 1.4});
+    }
+  }
+};
+
+TEST(LargeImpact, TellsWhereFrictionHoldsWhatRestitutionWouldPart) {
+  const JammedRow row;
+  EXPECT_THROW(solve_large_impact(row.D, row.bounces, row.places), StepFailure);
+  std::vector<Eigen::Index> jammed;
+  const Vector none = solve_impact(row.D, row.bounces, JammedRow::kCount, row.slips, &jammed);
+  EXPECT_EQ(none.norm(), 0);
+  EXPECT_EQ(std::ssize(jammed), 2 * JammedRow::kCount);  // all of them hang together
+  jammed.clear();
+  const Vector P = solve_impact(row.D, row.stops, JammedRow::kCount, row.slips, &jammed);
+  EXPECT_TRUE(jammed.empty());
+  // To what Newton's method leaves open.
+  EXPECT_NEAR((row.D * P - row.stops).cwiseAbs().maxCoeff(), 0, 1e-9);
+  EXPECT_LT(P.cwiseAbs().maxCoeff(), 10.0);
 }
 
 }  // namespace
