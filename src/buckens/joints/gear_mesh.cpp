@@ -17,11 +17,6 @@ using spatial::MarkerMotion;
 
 namespace {
 
-// Pressure angle in the plane across the axes.
-double transverse(double pressure_angle, double helix_angle) {
-  return std::atan(std::tan(pressure_angle) / std::cos(helix_angle));
-}
-
 /// Angle from x to y about an axis normal to x [rad].
 double angle_between(const Vector3d& axis, const Vector3d& x, const Vector3d& y) {
   return std::atan2(axis.cross(x).dot(y), x.dot(y));
@@ -51,6 +46,10 @@ spatial::PairRow pair_row(const Vector3d& r, const Vector3d& n, const Vector3d& 
 }
 
 }  // namespace
+
+double transverse_angle(double pressure_angle, double helix_angle) {
+  return std::atan(std::tan(pressure_angle) / std::cos(helix_angle));
+}
 
 /// Both wheels as seen across the axis, world components.
 struct GearMesh::View {
@@ -83,7 +82,7 @@ GearMesh::GearMesh(const Data& data) : axis_F_(data.axis_F), sizes_(data.sizes) 
         "a gear and a ring with as many teeth have one centre, but these are apart; correct "
         "`teeth`");
   }
-  const double alpha = transverse(data.pressure_angle, data.helix_angle);
+  const double alpha = transverse_angle(data.pressure_angle, data.helix_angle);
   base_ = distance_ / sum * std::cos(alpha);
   touching_ = distance_ * std::cos(alpha);
   axial_ = std::cos(alpha) * std::tan(data.helix_angle);
@@ -169,7 +168,7 @@ RackMesh::RackMesh(const Data& data)
       x_F_(data.along_F),
       x_M_(data.R_FM.transpose() * data.along_F),
       r_F_(data.r_F) {
-  const double alpha = transverse(data.pressure_angle, data.helix_angle);
+  const double alpha = transverse_angle(data.pressure_angle, data.helix_angle);
   const double cosine = std::cos(alpha);
   // On which side of the rack the pinion rolls follows from its sense: along = axis × side.
   const Vector3d side = data.along_F.cross(data.axis_F);

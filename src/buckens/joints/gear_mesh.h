@@ -9,6 +9,9 @@
 
 namespace buckens::joints {
 
+/// Pressure angle in the plane across the axes, from that normal to the teeth [rad].
+double transverse_angle(double pressure_angle, double helix_angle);
+
 /// Two wheels that turn with each other: gears with involute teeth, or pulleys of a belt.
 ///
 /// Angles φ of both wheels are counted against the line between their centres, so that centres may
@@ -91,6 +94,9 @@ class RackMesh final : public RowLaw {
               const double* states) const override;
   void follow(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double lambda,
               const double* before, double* after) const override;
+
+  /// What a turn of the pinion adds along the line of action [m].
+  double turn() const { return 2.0 * std::numbers::pi * base_; }
 
  private:
   CountedValue angle(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,

@@ -10,9 +10,9 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/joints/found_row.h"
-#include "buckens/joints/gear_mesh.h"
 #include "buckens/joints/held_row.h"
 #include "buckens/joints/path_row.h"
+#include "buckens/joints/placed_mesh.h"
 #include "buckens/joints/rolling_row.h"
 #include "buckens/spatial/rotation.h"
 
@@ -206,42 +206,6 @@ void add_distance(const Placement& placement, RowCollector& rows) {
   rows.push(ConstraintRow::distance(length));
 }
 
-void add_gear(JointType type, const Vector3d& axis, const Placement& placement,
-              RowCollector& rows) {
-  GearMesh::Data data;
-  data.axis_F = axis;
-  data.r_F = placement.r_F;
-  data.R_FM = placement.R_WF.transpose() * placement.R_WM;
-  data.sizes = placement.sizes;
-  data.same_sense = placement.same_sense;
-  data.has_teeth = type == JointType::gear;
-  data.pressure_angle = placement.pressure_angle;
-  data.helix_angle = placement.helix_angle;
-  rows.found(ConstraintRow::by_law(std::make_shared<GearMesh>(data)));
-}
-
-void add_rack(const Vector3d& axis, const Placement& placement, RowCollector& rows) {
-  const Vector3d along = placement.second_axis_F.value_or(Vector3d::Zero());
-  if (!(along.norm() > 0.0)) {
-    throw ModelError("`along` has no direction; give three numbers, not all zero");
-  }
-  if (std::abs(along.normalized().dot(axis)) > kRightAngle) {
-    throw ModelError(fmt::format(
-        "a rack runs across the axis of its pinion; `along` and `axis` meet at {:.4g} degrees; "
-        "turn one of them",
-        std::acos(std::clamp(along.normalized().dot(axis), -1.0, 1.0)) * kDegrees));
-  }
-  RackMesh::Data data;
-  data.axis_F = axis;
-  data.along_F = (along - along.dot(axis) * axis).normalized();
-  data.r_F = placement.r_F;
-  data.R_FM = placement.R_WF.transpose() * placement.R_WM;
-  data.radius = placement.sizes[0];
-  data.pressure_angle = placement.pressure_angle;
-  data.helix_angle = placement.helix_angle;
-  rows.found(ConstraintRow::by_law(std::make_shared<RackMesh>(data)));
-}
-
 /// A normal, the plane's where none is given.
 void add_slot(const Placement& placement, RowCollector& rows) {
   std::optional<Vector3d> normal = placement.path_normal_F;
@@ -326,11 +290,11 @@ void add_guide_or_coupling(JointType type, const Triad& f, const Placement& plac
       return add_distance(placement, rows);
     case JointType::gear:
     case JointType::belt:
-      return add_gear(type, f.z, placement, rows);
+      return rows.found(ConstraintRow::by_law(placed_gear(type, f.z, placement)));
     case JointType::slot:
       return add_slot(placement, rows);
     case JointType::rack:
-      return add_rack(f.z, placement, rows);
+      return rows.found(ConstraintRow::by_law(placed_rack(f.z, placement)));
     case JointType::rolling:
       return add_rolling(f.z, placement, rows);
     default:

@@ -28,7 +28,38 @@ struct ToothAngles {
   }
 };
 
-struct GearSpec : JointEndsAndAxis, ToothAngles {
+/// Play between rigid teeth, and blows of their flanks.
+struct ToothPlay {
+  double backlash = 0;                ///< [m]
+  std::optional<double> restitution;  ///< 0 … 1
+  std::optional<double> threshold;    ///< [m/s]
+
+  template <class Visitor>
+  void play_fields(Visitor& visit) {
+    visit(base::field("backlash", backlash,
+                      "play on the pitch circle: teeth carry on either flank or on none; as "
+                      "placed, they stand in the middle of it")
+              .in(base::kLength)
+              .non_negative()
+              .like("0.1 mm"));
+    visit(base::field("restitution", restitution,
+                      "coefficient of restitution of flanks with play: speed of departure over "
+                      "speed of approach, 0 … 1")
+              .non_negative()
+              .like("0.3")
+              .otherwise("0: flanks stay together until they are pulled apart"));
+    visit(base::field("threshold", threshold,
+                      "speed of approach along the line of action up to which flanks do not "
+                      "rebound")
+              .in(base::kVelocity)
+              .positive()
+              .like("1 mm/s")
+              .otherwise("a thousandth of the distance of the centres, or of the radius of a "
+                         "rack's pinion, per second"));
+  }
+};
+
+struct GearSpec : JointEndsAndAxis, ToothAngles, ToothPlay {
   static constexpr const char* kKey = "gear";
   static constexpr const char* kDoc =
       "two gears with parallel axes, markers at their centres; whatever carries the centres, fixed "
@@ -50,10 +81,11 @@ struct GearSpec : JointEndsAndAxis, ToothAngles {
             .like("[20, 40]"));
     visit(base::field("internal", internal, "whether the gear with more teeth is a ring").on_off());
     tooth_fields(visit, "of the teeth; positive: those of the first gear are right-handed");
+    play_fields(visit);
   }
 };
 
-struct RackSpec : JointEndsAndAxis, ToothAngles {
+struct RackSpec : JointEndsAndAxis, ToothAngles, ToothPlay {
   static constexpr const char* kKey = "rack";
   static constexpr const char* kDoc =
       "a toothed rack, which is the first body, and its pinion with the marker at its centre";
@@ -77,6 +109,7 @@ struct RackSpec : JointEndsAndAxis, ToothAngles {
               .required()
               .like("25 mm"));
     tooth_fields(visit, "of the teeth; positive: those of the rack are like a left-handed gear's");
+    play_fields(visit);
   }
 };
 

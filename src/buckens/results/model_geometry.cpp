@@ -13,6 +13,7 @@
 #include "buckens/fem/solid/block.h"
 #include "buckens/fem/solid/recovery.h"
 #include "buckens/model/elastic_gear.h"
+#include "buckens/model/gear_flank.h"
 #include "buckens/model/spec/model_description.h"
 #include "buckens/results/contact_geometry.h"
 #include "buckens/results/divided_body.h"
@@ -214,6 +215,22 @@ const fem::FeModel* mesh_of(const model::Model& model, const model::WholeBody& w
   return body.is_flexible() ? &body.flexible->mesh() : nullptr;
 }
 
+namespace {
+
+/// Both flanks of teeth with play are one joint. @return whether the load is one of them
+bool add_flank(const model::Model& model, const model::Load& load, Geometry& out) {
+  const auto* flank = dynamic_cast<const model::GearFlank*>(load.element.get());
+  if (flank == nullptr) return false;
+  if (flank->data().side < 0.0) return true;
+  out.joints.push_back({load.name,
+                        load.kind,
+                        {side_of(model, load.first), side_of(model, load.second)},
+                        to_body(model, load.first, flank->data().axis_F)});
+  return true;
+}
+
+}  // namespace
+
 Geometry model_geometry(const model::Model& model) {
   Geometry out;
   out.gravity = model.gravity;
@@ -245,6 +262,7 @@ Geometry model_geometry(const model::Model& model) {
                           load.kind == loads::ElasticBeltSpec::kKey;
     // What rubs in a joint is where the joint is drawn, too.
     const bool is_cam = load.kind == loads::CamSpec::kKey;
+    if (add_flank(model, load, out)) continue;
     const bool is_in_joint = (load.coordinate >= 0 && !is_rope && !is_cam) || load.joint >= 0;
     if (load.element->num_soft_rows() == 0 || is_drawn || is_in_joint) continue;
     if (const auto* teeth = dynamic_cast<const model::ElasticGear*>(load.element.get())) {

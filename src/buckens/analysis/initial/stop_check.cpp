@@ -32,6 +32,13 @@ void refuse_beyond_stops(const model::Model& model, const model::State& state) {
     if (contact.regime == 0 || contact.gap >= -kOnTheStop * (is_angle ? 1.0 : model.length)) {
       continue;
     }
+    if (load.is_among_joints) {
+      throw ModelError(fmt::format(
+          "joint \"{}\": its teeth start {:.3g} m beyond the play of their flanks, which do not "
+          "give way; start the bodies so that the teeth stand in a space, or from the equilibrium "
+          "(`start: static`), or use an `elastic-gear`",
+          load.name, -contact.gap));
+    }
     throw ModelError(fmt::format(
         "load \"{}\": {} at {:.6g} {}, {:.3g} beyond the end of its free way; a "
         "rigid stop holds, but does not push back; start within the stops or from the equilibrium "

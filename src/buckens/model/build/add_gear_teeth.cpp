@@ -4,12 +4,14 @@
 #include <cmath>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/model/elastic_gear.h"
+#include "buckens/model/gear_flank.h"
 
 namespace buckens::model {
 
@@ -33,6 +35,13 @@ class Assemblies {
   std::vector<std::size_t> leader_;
 };
 
+/// cos² β_b: from normal to the teeth to the line of action across the axes, by the helix at the
+/// base circle.
+double square_of_normal(double pressure_angle, double helix_angle) {
+  const double sine = std::sin(helix_angle) * std::cos(pressure_angle);
+  return 1.0 - sine * sine;
+}
+
 void require_connected(Assemblies& parts, const Model& model, const MarkerId& first,
                        const MarkerId& second, const std::string& what,
                        const SourceLocation& where) {
@@ -52,8 +61,9 @@ void require_connected(Assemblies& parts, const Model& model, const MarkerId& fi
 
 void require_common_carriers(const Model& model) {
   Assemblies parts(model.bodies.size());
+  // A rack holds its pinion no more than a gear does, but slides: it may hang on its teeth alone.
   const auto is_teeth = [](const Load& load) {
-    return dynamic_cast<const ElasticGear*>(load.element.get()) != nullptr;
+    return load.kind == joints::GearSpec::kKey || load.kind == loads::ElasticGearSpec::kKey;
   };
   for (const Joint& joint : model.joints) {
     if (joint.type != joints::JointType::gear) parts.connect(joint.first.body, joint.second.body);
@@ -70,7 +80,8 @@ void require_common_carriers(const Model& model) {
   }
   for (const Load& load : model.loads) {
     if (!is_teeth(load)) continue;
-    require_connected(parts, model, load.first, load.second, fmt::format("load \"{}\"", load.name),
+    require_connected(parts, model, load.first, load.second,
+                      fmt::format("{} \"{}\"", load.is_among_joints ? "joint" : "load", load.name),
                       {});
   }
 }
@@ -94,17 +105,43 @@ void set_gear_teeth(const loads::ElasticGearSpec& spec, MarkerFinder& find, Load
   mesh.same_sense = spec.internal;
   mesh.pressure_angle = spec.pressure_angle;
   mesh.helix_angle = spec.helix_angle;
-  // From normal to the teeth to the line of action across the axes, by the helix at the base
-  // circle; from the pitch circle to the base circle.
-  const double sine = std::sin(spec.helix_angle) * std::cos(spec.pressure_angle);
-  const double normal = 1.0 - sine * sine;
-  const double transverse = std::atan(std::tan(spec.pressure_angle) / std::cos(spec.helix_angle));
+  // From the pitch circle to the base circle.
+  const double transverse = joints::transverse_angle(spec.pressure_angle, spec.helix_angle);
+  const double normal = square_of_normal(spec.pressure_angle, spec.helix_angle);
   const ElasticGear::Data data{spec.stiffness * normal, spec.damping * normal,
                                spec.backlash * std::cos(transverse), std::sqrt(normal)};
   try {
     load.element = std::make_unique<ElasticGear>(mesh, data);
   } catch (const ModelError& error) {
     throw ModelError(where, fmt::format("{}: {}", what, error.what()));
+  }
+}
+
+void add_flanks(const joints::ToothPlay& spec, const Joint& joint,
+                const joints::Placement& placement, Model& model) {
+  const joints::FlankGaps flanks = joints::make_flank_gaps(joint.type, placement, spec.backlash);
+  const bool is_gear = joint.type == joints::JointType::gear;
+  const double size = is_gear ? placement.r_F.norm() : placement.sizes[0];
+  GearFlank::Data data;
+  data.play = flanks.play;
+  data.pitch_cosine =
+      std::cos(joints::transverse_angle(placement.pressure_angle, placement.helix_angle));
+  data.normal_cosine = std::sqrt(square_of_normal(placement.pressure_angle, placement.helix_angle));
+  data.axis_F = joint.axis_F;
+  for (std::size_t k = 0; k < flanks.gaps.size(); ++k) {
+    data.side = k == 0 ? 1.0 : -1.0;
+    Load load;
+    load.name = joint.name;
+    load.kind = joints::to_string(joint.type);
+    load.is_among_joints = true;
+    load.first = joint.first;
+    load.second = joint.second;
+    load.coordinate = static_cast<int>(model.coordinates.size());
+    model.coordinates.push_back({-1, joint.first, joint.second, flanks.gaps[k]});
+    load.element =
+        std::make_shared<GearFlank>(data, spec.restitution.value_or(0.0),
+                                    spec.threshold.value_or(loads::RigidStop::kAtRest * size));
+    model.loads.push_back(std::move(load));
   }
 }
 

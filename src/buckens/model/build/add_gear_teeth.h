@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "buckens/joints/meshing_specs.h"
+#include "buckens/joints/placed_mesh.h"
 #include "buckens/loads/elastic_gear_spec.h"
 #include "buckens/model/build/marker_finder.h"
 
@@ -12,6 +14,12 @@ namespace buckens::model {
 /// @throws InputError, ModelError naming the load and its place in the file
 void set_gear_teeth(const loads::ElasticGearSpec& spec, MarkerFinder& find, Load& load,
                     const SourceLocation& where);
+
+/// Adds the flanks of rigid teeth with play, two one-sided rows in place of that of a joint.
+/// @param joint with its name, type, markers and axis, and without a place in λ
+/// @throws ModelError as joints::make_flank_gaps()
+void add_flanks(const joints::ToothPlay& spec, const Joint& joint,
+                const joints::Placement& placement, Model& model);
 
 /// @throws ModelError naming a gear, elastic or not, whose wheels nothing else connects: gears hold
 ///         no centres

@@ -8,6 +8,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/loads/bushing.h"
 #include "buckens/model/build/add_coupler.h"
+#include "buckens/model/build/add_gear_teeth.h"
 #include "buckens/model/build/add_slider.h"
 #include "buckens/model/build/curve_of_path.h"
 
@@ -127,9 +128,21 @@ class JointBuilder {
       if (row.turns_first()) find_.require_moment(joint.first, what, spec.where);
       if (row.turns_second()) find_.require_moment(joint.second, what, spec.where);
     }
+    if constexpr (requires { kind.backlash; }) {
+      if (kind.backlash > 0.0) return add_teeth(kind, joint, placement, spec);
+    }
     joint.where = spec.where;
     joint.first_row = find_.model().num_constraint_rows();
     find_.model().joints.push_back(std::move(joint));
+  }
+
+  void add_teeth(const joints::ToothPlay& play, const Joint& joint,
+                 const joints::Placement& placement, const joints::JointSpec& spec) {
+    try {
+      add_flanks(play, joint, placement, find_.model());
+    } catch (const ModelError& error) {
+      throw ModelError(spec.where, fmt::format("joint \"{}\": {}", spec.name, error.what()));
+    }
   }
 
   /// A drive between the markers of a cross joint counts the angle about the arm of its first

@@ -30,6 +30,13 @@ std::string instead_of_attaching(const std::string& kind) {
 
 }  // namespace
 
+Finding released_play_problem(const joints::JointSpec& joint, const char* key) {
+  return Finding{key, fmt::format("joint \"{}\" has `backlash`, and events neither release nor "
+                                  "attach such teeth; use a load `elastic-gear`, which is switched "
+                                  "on and off, or leave the backlash out",
+                                  joint.name)};
+}
+
 Found attached_problem(const std::vector<std::string>& joints, const char* key,
                        const ModelDescription& model) {
   for (const std::string& name : joints) {
@@ -44,6 +51,7 @@ Found attached_problem(const std::vector<std::string>& joints, const char* key,
                                  "and off",
                                  name)};
     }
+    if (has_play(*joint)) return released_play_problem(*joint, key);
     if (const std::string instead = instead_of_attaching(joint->kind_name()); !instead.empty()) {
       return Finding{key, fmt::format("joint \"{}\" is a {}, which counts from where it was placed "
                                       "and cannot be attached during a run; {}",

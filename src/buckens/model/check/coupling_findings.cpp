@@ -52,6 +52,22 @@ Found gear_problem(const Spec& spec, const ModelDescription& model) {
   return needed_axis_problem(spec.axis, model);
 }
 
+/// What belongs to play, and what play needs.
+Found play_problem(const joints::ToothPlay& spec) {
+  if (spec.backlash == 0.0 && (spec.restitution || spec.threshold)) {
+    return Finding{spec.restitution ? "restitution" : "threshold",
+                   "without `backlash` flanks never part, and do not strike; give a `backlash`, "
+                   "for example 0.1 mm, or remove this key"};
+  }
+  if (spec.restitution.value_or(0.0) > 1.0) {
+    return Finding{
+        "restitution",
+        fmt::format("expected 0 to 1, found {:g}: no rebound is faster than the approach",
+                    *spec.restitution)};
+  }
+  return std::nullopt;
+}
+
 Found function_problem(const joints::CouplerTermSpec& term) {
   const int given =
       int{term.factor.has_value()} + int{!term.polynomial.empty()} + int{!term.table.empty()};
@@ -113,6 +129,14 @@ Found driven_problem(const joints::PrescribedCoordinateSpec& spec, const ModelDe
 }  // namespace
 
 Found own_joint_problem(const joints::GearSpec& spec, const ModelDescription& model) {
+  if (Found found = play_problem(spec)) return found;
+  for (std::size_t k = 0; spec.backlash > 0.0 && k < spec.teeth.size(); ++k) {
+    if (spec.teeth[k] == std::round(spec.teeth[k])) continue;
+    return Finding{fmt::format("teeth.{}", k),
+                   fmt::format("gears with `backlash` have whole numbers of teeth, since they may "
+                               "stand in any space between them; found {:g}",
+                               spec.teeth[k])};
+  }
   return gear_problem(spec, model);
 }
 
@@ -125,15 +149,20 @@ Found own_joint_problem(const GearSensor& spec, const ModelDescription& model) {
   for (const loads::LoadSpec& load : model.loads) {
     if (std::holds_alternative<loads::ElasticGearSpec>(load.kind)) known.push_back(load.name);
   }
+  for (const joints::JointSpec& joint : model.joints) {
+    if (has_play(joint)) known.push_back(joint.name);
+  }
   if (std::find(known.begin(), known.end(), spec.gear) != known.end()) return std::nullopt;
   const auto* joint = base::find_named(model.joints, spec.gear);
   if (joint != nullptr && std::holds_alternative<joints::GearSpec>(joint->kind)) {
-    return Finding{"gear",
-                   fmt::format("\"{}\" is a joint, whose teeth do not give way; observe its "
-                               "`joint-force`",
-                               spec.gear)};
+    return Finding{
+        "gear", fmt::format("\"{}\" is a joint, whose teeth neither give way nor have `backlash`; "
+                            "observe its `joint-force`",
+                            spec.gear)};
   }
-  return Finding{"gear", fmt::format("there is no elastic-gear \"{}\".{}", spec.gear,
+  return Finding{"gear", fmt::format("there is no elastic-gear \"{}\", and no joint with "
+                                     "`backlash` of this name.{}",
+                                     spec.gear,
                                      known.empty() ? " The model has none."
                                                    : base::suggestion(spec.gear, known))};
 }
@@ -142,6 +171,7 @@ Found own_joint_problem(const joints::RackSpec& spec, const ModelDescription& mo
   if (!(spec.along.norm() > 0.0)) {
     return Finding{"along", "[0, 0, 0] is not a direction; give for example [1, 0, 0]"};
   }
+  if (Found found = play_problem(spec)) return found;
   if (Found found = tooth_problem(spec, model)) return found;
   return needed_axis_problem(spec.axis, model);
 }

@@ -23,9 +23,23 @@ bool acts_on_coordinate(const loads::LoadSpec& load, bool turns) {
       load.kind);
 }
 
+bool has_play(const joints::JointSpec& joint) {
+  return std::visit(
+      []<class T>(const T& kind) {
+        if constexpr (requires { kind.backlash; }) return kind.backlash > 0.0;
+        return false;
+      },
+      joint.kind);
+}
+
 /// Users look for the force of a spring at a joint sensor, too.
 Found joint_problem(const std::string& name, const ModelDescription& model) {
-  if (base::find_named(model.joints, name) != nullptr) return std::nullopt;
+  if (const auto* joint = base::find_named(model.joints, name)) {
+    if (!has_play(*joint)) return std::nullopt;
+    return Finding{"joint", fmt::format("\"{}\" has `backlash`: its flanks push or let go; observe "
+                                        "their force by `{{gear: {}}}`",
+                                        name, name)};
+  }
   if (const auto* load = base::find_named(model.loads, name)) {
     const bool turns = std::holds_alternative<loads::TorsionalSpringSpec>(load->kind) ||
                        acts_on_coordinate(*load, true);

@@ -11,7 +11,10 @@ namespace buckens::model {
 /// Whether a load is a law on the angle (or the displacement) of a joint.
 bool acts_on_coordinate(const loads::LoadSpec& load, bool turns);
 
-/// Whether a sensor names a joint that does not exist.
+/// Whether a joint has rigid teeth with play, which are one-sided rows.
+bool has_play(const joints::JointSpec& joint);
+
+/// Whether a sensor names a joint that does not exist, or whose rows are one-sided.
 Found joint_problem(const std::string& name, const ModelDescription& model);
 
 /// A coordinate of a joint that a model file asks for.
@@ -30,6 +33,9 @@ Found coordinate_problem(const CoordinateQuery& query, const ModelDescription& m
 /// @param key field that names them
 Found attached_problem(const std::vector<std::string>& joints, const char* key,
                        const ModelDescription& model);
+
+/// That an event cannot take teeth with play out of mesh, or bring them into it.
+Finding released_play_problem(const joints::JointSpec& joint, const char* key);
 
 // What is wrong with joints, laws and sensors of joints beyond their ends and axes.
 

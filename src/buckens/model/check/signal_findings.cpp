@@ -179,6 +179,7 @@ Found problem(const EventSpec& spec, const ModelDescription& model) {
       return Finding{"release", fmt::format("unknown joint \"{}\".{}", name,
                                             base::suggestion(name, names_of(model.joints)))};
     }
+    if (has_play(*joint)) return released_play_problem(*joint, "release");
     if (std::holds_alternative<joints::BushingSpec>(joint->kind)) {
       return Finding{"release", fmt::format("joint \"{}\" is a bushing; name it under "
                                             "`switch-off`",

@@ -403,15 +403,19 @@ struct CableSensor {
 struct GearSensor {
   static constexpr const char* kKey = "gear";
   static constexpr const char* kDoc =
-      "of an elastic gear: the force of its teeth and how far they give way, both normal to their "
-      "flanks and positive where the first gear turned forwards about `axis` pushes the second; "
-      "zero while teeth pass their play";
+      "of an elastic gear: the force of its teeth and how far they give way (`deflection`), both "
+      "normal to their flanks and positive where the first gear turned forwards about `axis` "
+      "pushes the second; zero while teeth pass their play. Of a joint `gear` or `rack` with "
+      "`backlash`: the same force, and how far teeth are from the middle of their play, on the "
+      "pitch circle (`play`)";
   std::string gear;
 
   template <class Visitor>
   void fields(Visitor& visit) {
-    visit(
-        base::field("gear", gear, "name of the elastic gear").required().shorthand().like("mesh"));
+    visit(base::field("gear", gear, "name of the elastic gear, or of the joint with backlash")
+              .required()
+              .shorthand()
+              .like("mesh"));
   }
 };
 
