@@ -377,6 +377,7 @@ def test_messages_say_what_is_wrong(buckens, tmp_path, name):
 
 @pytest.mark.parametrize("old, new, code, words", [
     ("mesh: {gear: mesh}", "mesh: {joint-force: mesh}", 2, ["\"mesh\" has `backlash`", "{gear: mesh}"]),
+    ("loads:", "signals: {s: {joint-angle: mesh}}\nloads:", 2, ["joint \"mesh\" is a gear, which has no angle"]),
     ("loads:", "signals: {s: \"t - 1\"}\nevents: {e: {when: s, release: mesh}}\nloads:", 2, ["events.e", "\"mesh\" has `backlash`", "elastic-gear"]),
     ("loads:", "signals: {s: \"t - 1\"}\nevents: {e: {when: s, attach: mesh}}\nloads:", 2, ["events.e", "\"mesh\" has `backlash`", "elastic-gear"]),
     ("initial: {", "initial: {released: [mesh], ", 2, ["released", "\"mesh\" has `backlash`"]),

@@ -34,12 +34,7 @@ bool has_play(const joints::JointSpec& joint) {
 
 /// Users look for the force of a spring at a joint sensor, too.
 Found joint_problem(const std::string& name, const ModelDescription& model) {
-  if (const auto* joint = base::find_named(model.joints, name)) {
-    if (!has_play(*joint)) return std::nullopt;
-    return Finding{"joint", fmt::format("\"{}\" has `backlash`: its flanks push or let go; observe "
-                                        "their force by `{{gear: {}}}`",
-                                        name, name)};
-  }
+  if (base::find_named(model.joints, name) != nullptr) return std::nullopt;
   if (const auto* load = base::find_named(model.loads, name)) {
     const bool turns = std::holds_alternative<loads::TorsionalSpringSpec>(load->kind) ||
                        acts_on_coordinate(*load, true);
@@ -54,6 +49,14 @@ Found joint_problem(const std::string& name, const ModelDescription& model) {
   }
   return Finding{"joint", fmt::format("unknown joint \"{}\".{}", name,
                                       base::suggestion(name, names_of(model.joints)))};
+}
+
+Found joint_force_problem(const std::string& name, const ModelDescription& model) {
+  if (Found found = joint_problem(name, model)) return found;
+  if (!has_play(*base::find_named(model.joints, name))) return std::nullopt;
+  return Finding{"joint", fmt::format("\"{}\" has `backlash`: its flanks push or let go; observe "
+                                      "their force by `{{gear: {}}}`",
+                                      name, name)};
 }
 
 namespace {

@@ -14,8 +14,11 @@ bool acts_on_coordinate(const loads::LoadSpec& load, bool turns);
 /// Whether a joint has rigid teeth with play, which are one-sided rows.
 bool has_play(const joints::JointSpec& joint);
 
-/// Whether a sensor names a joint that does not exist, or whose rows are one-sided.
+/// Whether a sensor names a joint that does not exist.
 Found joint_problem(const std::string& name, const ModelDescription& model);
+/// The same of a sensor of its force or torque: rows of teeth with play are one-sided, and not
+/// among these.
+Found joint_force_problem(const std::string& name, const ModelDescription& model);
 
 /// A coordinate of a joint that a model file asks for.
 struct CoordinateQuery {

@@ -160,7 +160,7 @@ struct AlternativeRules {
       if (!spec.on.is_ground()) return std::nullopt;
       return Finding{"on", "a load on the ground has no effect; name a body"};
     } else if constexpr (requires { spec.joint; }) {
-      return joint_problem(spec.joint, model);
+      return joint_force_problem(spec.joint, model);
     } else if constexpr (requires { spec.spring; }) {
       return spring_problem(spec.spring, std::is_same_v<T, SpringTorqueSensor>, model);
     } else if constexpr (requires { spec.load; }) {
