@@ -16,6 +16,7 @@ class GearFlank final : public loads::RigidStop {
   struct Data {
     double side = 1;           ///< of the residual of the meshing row on which it pushes
     double play = 0;           ///< j, along the line of action [m]
+    double period = 1;         ///< along it, after which spaces between teeth repeat [m]
     double pitch_cosine = 1;   ///< cos α_t, from the pitch circle to the line of action
     double normal_cosine = 1;  ///< cos β_b, from the line of action to the normal of the flanks
     Eigen::Vector3d axis_F = Eigen::Vector3d::UnitZ();  ///< of the gears, in the first marker

@@ -11,6 +11,7 @@
 
 #include "buckens/dynamics/mass_metric.h"
 #include "buckens/dynamics/model_scales.h"
+#include "buckens/model/gear_flank.h"
 #include "buckens/spatial/rotation.h"
 #include "buckens/stepping/friction_impulses.h"
 #include "buckens/stepping/gap_of_step.h"
@@ -35,6 +36,18 @@ constexpr double kSamePlace = 0.1;
 
 // Overlaps by this share of the size of positions, or [rad], are rounding.
 constexpr double kNoGap = 1e-14;
+
+/// Flanks that pass half of a pitch in a step may be in any space between teeth.
+/// @throws StepFailure
+void require_same_space(const model::Load& load, double rate, double h) {
+  const auto* flank = dynamic_cast<const model::GearFlank*>(load.element.get());
+  const double way = std::abs(rate) * h;
+  if (flank == nullptr || way < 0.5 * flank->data().period) return;
+  throw StepFailure(fmt::format(
+      "joint \"{}\": its teeth pass {:.3g} m of each other within a step, more than half of their "
+      "pitch of {:.3g} m, so that blows would be missed; use a smaller `step`",
+      load.name, way, flank->data().period));
+}
 
 double rate_of(const dynamics::SystemRow& row, const std::vector<dynamics::BodyMotion>& motions) {
   double sum = 0;
@@ -176,8 +189,10 @@ bool Impacts::strike(const std::vector<dynamics::BodyMotion>& then,
     land(P, D * P);
     clear_ends(P, then, rows_in_use, memory, t);
   } catch (const StepFailure& failure) {
-    const std::string& name = model_.loads[laws_[touches_.front().law].load].name;
-    throw StepFailure(fmt::format("load \"{}\" at t = {:.6g} s: {}", name, t, failure.what()));
+    const model::Load& load = model_.loads[laws_[touches_.front().law].load];
+    throw StepFailure(fmt::format("{} \"{}\" at t = {:.6g} s: {}",
+                                  load.is_among_joints ? "joint" : "load", load.name, t,
+                                  failure.what()));
   }
   return true;
 }
@@ -253,6 +268,8 @@ bool Impacts::look(std::size_t index, const dynamics::Circumstances& around,
   const auto second = dynamics::evaluate_marker(model_, load.second, motions);
   const loads::Sight sight =
       dynamics::sight_of(model_, law.load, t, around, first.motion, second.motion);
+  const double fastest = std::max(std::abs(law.start.rate), std::abs(sight.coordinate.rate));
+  require_same_space(load, fastest, scheme_.h);
   loads::RigidLaw::Contact contact = law.law->contact(sight.coordinate.value);
   const bool is_closed = sight.stand.regime != 0;
   if (is_closed) contact.regime = sight.stand.regime;

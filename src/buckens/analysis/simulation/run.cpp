@@ -92,9 +92,12 @@ void SimulationRun::check_method() {
   if (is_within && rigid != nullptr) {
     throw InputError(spec_.where,
                      fmt::format("simulation: method {} satisfies the equations within a step, not "
-                                 "at its end, where load \"{}\" holds rigidly; use "
-                                 "generalized-alpha or hht, or give the load a stiffness",
-                                 stepping::to_string(method_of(spec_.method)), rigid->name));
+                                 "at its end, where {} \"{}\" holds rigidly; use "
+                                 "generalized-alpha or hht, or {}",
+                                 stepping::to_string(method_of(spec_.method)),
+                                 rigid->is_among_joints ? "joint" : "load", rigid->name,
+                                 rigid->is_among_joints ? "an `elastic-gear` in its place"
+                                                        : "give the load a stiffness"));
   }
   for (const body::Body& body : built_.model.bodies) {
     if (!body.is_flexible() || !body.flexible->is_quasi_static) continue;

@@ -124,6 +124,7 @@ void add_flanks(const joints::ToothPlay& spec, const Joint& joint,
   const double size = is_gear ? placement.r_F.norm() : placement.sizes[0];
   GearFlank::Data data;
   data.play = flanks.play;
+  data.period = flanks.period;
   data.pitch_cosine =
       std::cos(joints::transverse_angle(placement.pressure_angle, placement.helix_angle));
   data.normal_cosine = std::sqrt(square_of_normal(placement.pressure_angle, placement.helix_angle));
