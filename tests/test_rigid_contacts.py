@@ -192,11 +192,8 @@ def test_wrong_contacts_are_refused(buckens, tmp_path, spec, code, words):
     buckens("check", "model.yaml").must(code, "model.yaml:", *words)
 
 
-def test_what_is_for_simulations_only_says_so(buckens, tmp_path):
+def test_methods_that_hold_within_steps_are_refused(buckens, tmp_path):
     text = model(ball("b0", [0, 0, 0.05]), "  c: {contacts: {among: [{on: ground, plane: {}}, {bodies: \"b*\", sphere: 50 mm}]}}\n", "")
-    (tmp_path / "model.yaml").write_text(text)
-    for verb in (["static"], ["modes", "--system"]):
-        buckens(*verb, "model.yaml").must(3, "load \"c\"", "rigid `contacts`", "give it a `stiffness`")
     (tmp_path / "newmark.yaml").write_text(text.replace("step: 1 ms", "step: 1 ms, method: newmark"))
     buckens("run", "newmark.yaml").must(2, "load \"c\" holds rigidly", "generalized-alpha")
 

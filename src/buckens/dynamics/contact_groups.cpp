@@ -96,9 +96,25 @@ struct MemberBuffers {
   std::vector<std::pair<int, int>> pairs;
 };
 
-/// @param widen factor of all margins
+/// How far around shapes others are looked for.
+struct Margins {
+  double ahead = 0;  ///< time over which they move [s]
+  double widen = 1;  ///< factor of all margins
+  double farthest = kFarthest;
+
+  /// @param speed of the fastest point of a shape [m/s], @param size of it [m]
+  double of(double speed, double size) const {
+    if (ahead == 0.0) return 0.0;
+    const double moves = speed > 0.0 ? kStepsAhead * ahead * speed : 0.0;
+    if (std::isinf(size)) return widen * moves;
+    return widen * (kMargin * size + (moves > farthest * size ? farthest * size : moves));
+  }
+  /// Whether gaps say how far apart shapes are: of those that are near each other.
+  bool by_gaps() const { return !std::isinf(farthest); }
+};
+
 void find_near_in(const model::Model& model, std::size_t number,
-                  const std::vector<BodyMotion>& motions, double ahead, double widen,
+                  const std::vector<BodyMotion>& motions, const Margins& margins,
                   std::vector<NearPair>& out) {
   const ContactGroup& group = *model.contact_groups[number];
   const std::size_t count = group.members.size();
@@ -111,13 +127,7 @@ void find_near_in(const model::Model& model, std::size_t number,
   for (std::size_t k = 0; k < count; ++k) {
     const ContactMember& member = group.members[k];
     at[k] = evaluate_marker(model, member.marker, motions).motion;
-    const double speed = fastest(member.shape, at[k]);
-    const double moves = speed > 0.0 ? kStepsAhead * ahead * speed : 0.0;
-    const double size = loads::size_of(member.shape);
-    margin[k] = ahead == 0.0       ? 0.0
-                : std::isinf(size) ? moves
-                                   : kMargin * size + std::min(moves, kFarthest * size);
-    margin[k] *= widen;
+    margin[k] = margins.of(fastest(member.shape, at[k]), loads::size_of(member.shape));
     boxes[k] = loads::bounding_box(member.shape, at[k]);
     boxes[k].min().array() -= margin[k];
     boxes[k].max().array() += margin[k];
@@ -128,18 +138,22 @@ void find_near_in(const model::Model& model, std::size_t number,
     if (!group.can_touch(i, j)) continue;
     const auto [first, second] = group.ordered(i, j);
     const loads::ContactPair pair(group.members[first].shape, group.members[second].shape);
-    if (least_gap(pair, at[first], at[second]) > margin[i] + margin[j]) continue;
+    const bool is_endless = !boxes[i].sizes().allFinite() || !boxes[j].sizes().allFinite();
+    if ((is_endless || margins.by_gaps()) &&
+        least_gap(pair, at[first], at[second]) > margin[i] + margin[j]) {
+      continue;
+    }
     out.push_back({static_cast<int>(number), static_cast<int>(first), static_cast<int>(second)});
   }
 }
 
 /// @param rigid of which groups
-void find_near_into(const model::Model& model, const std::vector<BodyMotion>& motions, double ahead,
-                    bool rigid, double widen, std::vector<NearPair>& out) {
+void find_near_into(const model::Model& model, const std::vector<BodyMotion>& motions,
+                    const Margins& margins, bool rigid, std::vector<NearPair>& out) {
   out.clear();
   for (std::size_t k = 0; k < model.contact_groups.size(); ++k) {
     if (model.contact_groups[k]->rigid.has_value() != rigid) continue;
-    find_near_in(model, k, motions, ahead, widen, out);
+    find_near_in(model, k, motions, margins, out);
   }
   std::sort(out.begin(), out.end());
 }
@@ -147,7 +161,7 @@ void find_near_into(const model::Model& model, const std::vector<BodyMotion>& mo
 /// Finds pairs and room for their states.
 void find_pairs(const model::Model& model, const std::vector<BodyMotion>& motions, double ahead,
                 const model::RowMemory& before, model::RowMemory& out) {
-  find_near_into(model, motions, ahead, false, 1.0, out.near);
+  find_near_into(model, motions, {ahead}, false, out.near);
   std::erase_if(out.near, [&](const NearPair& pair) {
     return before.is_off(model.contact_groups[static_cast<std::size_t>(pair.group)]->load);
   });
@@ -158,15 +172,18 @@ void find_pairs(const model::Model& model, const std::vector<BodyMotion>& motion
 std::vector<NearPair> find_near(const model::Model& model, const std::vector<BodyMotion>& motions,
                                 double ahead) {
   std::vector<NearPair> out;
-  find_near_into(model, motions, ahead, false, 1.0, out);
+  find_near_into(model, motions, {ahead}, false, out);
   return out;
 }
 
-std::vector<NearPair> find_rigid_pairs(const model::Model& model,
-                                       const std::vector<BodyMotion>& motions, double ahead) {
+namespace {
+
+std::vector<NearPair> find_rigid_within(const model::Model& model,
+                                        const std::vector<BodyMotion>& motions,
+                                        const Margins& margins) {
   std::vector<NearPair> out, wide, kept;
-  find_near_into(model, motions, ahead, true, 1.0, out);
-  find_near_into(model, motions, ahead, true, kKeeps, wide);
+  find_near_into(model, motions, margins, true, out);
+  find_near_into(model, motions, {margins.ahead, kKeeps, margins.farthest}, true, wide);
   for (const model::PairLoads& known : model.pair_loads) {
     const bool stays = std::binary_search(wide.begin(), wide.end(), known.pair) &&
                        !std::binary_search(out.begin(), out.end(), known.pair);
@@ -175,6 +192,18 @@ std::vector<NearPair> find_rigid_pairs(const model::Model& model,
   out.insert(out.end(), kept.begin(), kept.end());
   std::sort(out.begin(), out.end());
   return out;
+}
+
+}  // namespace
+
+std::vector<NearPair> find_rigid_pairs(const model::Model& model,
+                                       const std::vector<BodyMotion>& motions, double ahead) {
+  return find_rigid_within(model, motions, {ahead});
+}
+
+std::vector<NearPair> find_rigid_pairs_on(const model::Model& model,
+                                          const std::vector<BodyMotion>& motions) {
+  return find_rigid_within(model, motions, {1.0, 1.0, HUGE_VAL});
 }
 
 void add_group_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,

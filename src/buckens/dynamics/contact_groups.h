@@ -17,6 +17,11 @@ std::vector<model::NearPair> find_near(const model::Model& model,
 /// them stay until they are further apart.
 std::vector<model::NearPair> find_rigid_pairs(const model::Model& model,
                                               const std::vector<BodyMotion>& motions, double ahead);
+/// The same of all that may meet on a way, however long. What is far apart at its start is found by
+/// the boxes around it alone.
+/// @param motions at its start, with velocities that lead to its end within 1 s
+std::vector<model::NearPair> find_rigid_pairs_on(const model::Model& model,
+                                                 const std::vector<BodyMotion>& motions);
 
 /// Adds the forces of all near pairs. Without a memory those that touch at the instant.
 void add_group_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,

@@ -58,4 +58,18 @@ void follow_pairs(const model::Model& model, const std::vector<model::PairLoads>
   if (!state.inputs.empty()) state.inputs.resize(model.loads.size());
 }
 
+void follow_pairs(const model::Model& model, const std::vector<model::PairLoads>& before,
+                  std::vector<loads::RowStand>& at_rest) {
+  if (at_rest.empty()) return;
+  const std::vector<loads::RowStand> old = at_rest;
+  at_rest.resize(before.empty() ? old.size() : before.front().first);
+  at_rest.resize(model.loads.size());
+  for (const model::PairLoads& pair : model.pair_loads) {
+    const model::PairLoads* const known = find_pair(before, pair.pair);
+    if (known == nullptr) continue;
+    std::copy_n(old.begin() + static_cast<std::ptrdiff_t>(known->first), pair.count,
+                at_rest.begin() + static_cast<std::ptrdiff_t>(pair.first));
+  }
+}
+
 }  // namespace buckens::dynamics

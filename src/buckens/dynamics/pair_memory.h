@@ -13,5 +13,8 @@ namespace buckens::dynamics {
 /// @param before Model::pair_loads until now
 void follow_pairs(const model::Model& model, const std::vector<model::PairLoads>& before,
                   const std::vector<BodyMotion>& motions, model::State& state);
+/// The same of what a state of rest remembers of each load, RowMemory::at_rest; empty: nothing.
+void follow_pairs(const model::Model& model, const std::vector<model::PairLoads>& before,
+                  std::vector<loads::RowStand>& at_rest);
 
 }  // namespace buckens::dynamics

@@ -76,7 +76,7 @@ class ContactsSensor final : public Sensor {
     dynamics::GroupReading reading =
         dynamics::read_group(now.model, group_, now.motions, now.state.t, circumstances_of(now));
     const auto& at_rest = now.state.memory.at_rest;
-    if (!at_rest.empty()) {
+    if (!at_rest.empty() && !now.model.contact_groups[group_]->rigid) {
       reading.friction = at_rest[now.model.contact_groups[group_]->load].force;  // frozen
     }
     values.insert(values.end(),

@@ -19,6 +19,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/constraints.h"
 #include "buckens/dynamics/contact_groups.h"
+#include "buckens/dynamics/pair_memory.h"
 #include "buckens/dynamics/row_memory.h"
 #include "buckens/dynamics/signals.h"
 #include "buckens/dynamics/travel.h"
@@ -141,13 +142,21 @@ void keep_wound(const model::Model& model, const std::vector<dynamics::BodyMotio
 
 /// Moves bodies to the equilibrium from which the motion starts. @return how its rows stand
 RestStands settle_at_rest(const model::BuiltModel& built, const dynamics::MassMetric& metric,
-                          Prepared& out) {
-  const StaticReport report =
-      find_static_equilibrium(built.model, metric, out.state, built.description.initial.friction);
+                          model::RigidPairs* pairs, Prepared& out) {
+  const StaticReport report = find_static_equilibrium(built.model, metric, out.state,
+                                                      built.description.initial.friction, pairs);
   out.setup_factorisations = report.factorisations;
   out.warnings.insert(out.warnings.end(), report.warnings.begin(), report.warnings.end());
   out.notes.insert(out.notes.end(), report.notes.begin(), report.notes.end());
   return std::exchange(out.state.memory.at_rest, {});
+}
+
+/// Those of rigid contact groups that are near each other where the motion starts.
+void find_pairs(const std::vector<dynamics::BodyMotion>& motions, model::RigidPairs& pairs,
+                RestStands& at_rest) {
+  const std::vector<model::PairLoads> before = pairs.model().pair_loads;
+  pairs.set(dynamics::find_rigid_pairs(pairs.model(), motions, HUGE_VAL));
+  dynamics::follow_pairs(pairs.model(), before, at_rest);
 }
 
 bool have_laws_of_reactions(const model::Model& model) {
@@ -208,7 +217,7 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
   RestStands at_rest;
   const bool is_static = initial.start == model::StartKind::static_equilibrium;
   bool is_at_rest = is_static || initial.preload;
-  if (is_at_rest) at_rest = settle_at_rest(built, metric, out);
+  if (is_at_rest) at_rest = settle_at_rest(built, metric, pairs, out);
   if (set_initial_displacements(built, out.state)) {
     at_rest.clear();
     is_at_rest = false;
@@ -224,7 +233,7 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
     out.notes.push_back(std::move(text));
   }
   const auto motions = dynamics::motions_of(model, out.state);
-  if (pairs != nullptr) pairs->set(dynamics::find_rigid_pairs(model, motions, HUGE_VAL));
+  if (pairs != nullptr) find_pairs(motions, *pairs, at_rest);
   refuse_beyond_stops(model, out.state);
   out.state.memory = memory_at_start(built, motions);
   if (is_at_rest) keep_wound(model, motions, out.state);

@@ -14,6 +14,7 @@
 #include "buckens/dynamics/constraints.h"
 #include "buckens/fem/assembly/recovery.h"
 #include "buckens/fem/solid/recovery.h"
+#include "buckens/model/build/paired_model.h"
 #include "buckens/results/field_recorder.h"
 #include "buckens/results/recorder.h"
 #include "buckens/results/stored_size.h"
@@ -150,7 +151,9 @@ void report_size(const model::BuiltModel& built, const results::Recorder& record
 
 }  // namespace
 
-ModelReport report_model(const model::BuiltModel& built) {
+ModelReport report_model(const model::BuiltModel& given) {
+  model::PairedModel paired(given);
+  const model::BuiltModel& built = paired.built();
   const model::Model& model = built.model;
   ModelReport out;
   OutputPlan plan;
@@ -173,7 +176,7 @@ ModelReport report_model(const model::BuiltModel& built) {
     coordinates += out.bodies.back().frame_coordinates;
   }
   const dynamics::MassMetric metric(model);
-  const Prepared prepared = prepare(built, metric);
+  const Prepared prepared = prepare(built, metric, paired.pairs());
   out.joints = static_cast<int>(std::count_if(model.joints.begin(), model.joints.end(),
                                               [](const auto& joint) { return !joint.is_tie; }));
   out.loads = static_cast<int>(built.description.loads.size());

@@ -43,11 +43,6 @@ const model::SimulationSpec& simulation_of(const model::ModelDescription& descri
                    "`simulation: {duration: 1 s, step: 1 ms}`");
 }
 
-std::unique_ptr<model::BuiltModel> own_copy(const model::BuiltModel& built) {
-  if (!model::RigidPairs::are_needed(built.model)) return nullptr;
-  return std::make_unique<model::BuiltModel>(built);
-}
-
 /// What takes long in rigid contact groups; empty: nothing.
 std::string judge_group(const model::Model& model, const model::ContactGroup& group) {
   const std::size_t count = group.members.size();
@@ -73,8 +68,8 @@ const model::Load* rigid_load(const model::Model& model) {
 }  // namespace
 
 SimulationRun::SimulationRun(const model::BuiltModel& built, SimulationOptions options)
-    : own_(own_copy(built)),
-      built_(own_ ? *own_ : built),
+    : own_(built),
+      built_(own_.built()),
       options_(std::move(options)),
       spec_(simulation_of(built.description)),
       views_(built.model) {
@@ -156,8 +151,7 @@ void SimulationRun::set_up() {
   summary_.title = built_.model.title;
   summary_.version = kVersion;
   metric_.emplace(built_.model);
-  if (own_) pairs_.emplace(own_->model);
-  prepared_.emplace(prepare(built_, *metric_, pairs_ ? &*pairs_ : nullptr));
+  prepared_.emplace(prepare(built_, *metric_, own_.pairs()));
   begin_march(0.0);
   observer_.emplace(built_, *metric_, !prepared_->redundant_rows.empty());
   work_.emplace(built_.model, prepared_->state, march_->stepper().scheme().weight == 1.0);
@@ -287,7 +281,7 @@ void SimulationRun::step() {
   if (recording_) recording_->after_step(before_, state, is_done());
   watch_->after_step(march_->stepper(), state);
   act_on_events(found);
-  if (pairs_) find_pairs();
+  if (own_.pairs() != nullptr) find_pairs();
   for (const auto& callback : callbacks) callback(state.t - before_.t);
 }
 
@@ -300,7 +294,7 @@ void SimulationRun::find_pairs() {
       std::equal(now.begin(), now.end(), before.begin(), before.end(),
                  [](const model::NearPair& a, const auto& b) { return a == b.pair; });
   if (are_same) return;
-  pairs_->set(now);
+  own_.pairs()->set(now);
   dynamics::follow_pairs(built_.model, before, motions, state);
   work_->follow_pairs(state);
 }

@@ -23,6 +23,7 @@
 #include "buckens/analysis/simulation/step_advice.h"
 #include "buckens/analysis/simulation/step_traffic.h"
 #include "buckens/analysis/simulation/work_account.h"
+#include "buckens/model/build/paired_model.h"
 #include "buckens/results/recorder.h"
 #include "buckens/stepping/time_march.h"
 
@@ -94,10 +95,8 @@ class SimulationRun {
   void visit_saved(const base::SaveVisit& visit);
   std::vector<std::string> identity() const;
 
-  std::unique_ptr<model::BuiltModel>
-      own_;  // of models with rigid contact groups, whose loads change
+  model::PairedModel own_;
   const model::BuiltModel& built_;
-  std::optional<model::RigidPairs> pairs_;  // of own_
   SimulationOptions options_;
   const model::SimulationSpec& spec_;
   Clock::time_point created_ = Clock::now();

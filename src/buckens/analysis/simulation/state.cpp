@@ -207,14 +207,14 @@ std::vector<std::string> SimulationRun::identity() const {
 
 void SimulationRun::visit_saved(const base::SaveVisit& visit) {
   model::State& state = prepared_->state;
-  if (pairs_) {
+  if (own_.pairs() != nullptr) {
     std::vector<model::NearPair> near;
     for (const model::PairLoads& loads : built_.model.pair_loads) near.push_back(loads.pair);
     model::visit_pairs(visit.inside("rigid_pairs"), built_.model, true, near);
-    if (visit.is_restoring()) pairs_->set(near);
+    if (visit.is_restoring()) own_.pairs()->set(near);
   }
   model::visit_saved(visit.inside("state"), built_.model, state);
-  if (pairs_ && visit.is_restoring()) work_->follow_pairs(state);
+  if (own_.pairs() != nullptr && visit.is_restoring()) work_->follow_pairs(state);
   visit.count("steps", steps_taken_, 0, kMostEver);
   visit.flag("has_begun", has_begun_);
   visit.flag("has_new_inputs", has_new_inputs_);

@@ -51,7 +51,7 @@ SparseMatrix bordered(const SparseMatrix& A, const Vector& column, const Vector&
 }  // namespace
 
 StaticContinuation::StaticContinuation(const model::Model& model,
-                                       const dynamics::MassMetric& metric, const RestRows& rest,
+                                       const dynamics::MassMetric& metric, RestRows& rest,
                                        const std::vector<const ElasticCompliance*>& compliance,
                                        double t, const PathScale& scale, double force)
     : model_(model),
@@ -70,6 +70,58 @@ void StaticContinuation::choose_rows(const StaticPoint& point) {
   const std::vector<int> rows = metric_.split(all.balance(point).constraints.rows).independent;
   system_.emplace(model_, rest_, compliance_, rows, t_, force_);
   lu_.reset();
+}
+
+bool StaticContinuation::follow_pairs(const StaticPoint& from, const StaticPoint& to, bool keeps) {
+  if (!rest_.follow_pairs(motions_towards(model_, from, to), keeps)) return false;
+  const std::vector<int> rows = system_->rows_in_use();
+  system_.emplace(model_, rest_, compliance_, rows, t_, force_);
+  lu_.reset();
+  return true;
+}
+
+void StaticContinuation::fit(StaticPoint& point) const {
+  if (point.order == rest_.order()) return;
+  point.rest = rest_.carried(point.order, point.rest);
+  point.order = rest_.order();
+}
+
+void StaticContinuation::fit(PathPoint& at) const {
+  if (at.point.order == rest_.order()) return;
+  if (at.direction.size() > 0) {  // its rows stand last
+    const std::vector<int> places = rest_.places_in(at.point.order);
+    const auto others = at.direction.size() - static_cast<Eigen::Index>(at.point.rest.size());
+    Vector direction = Vector::Zero(others + static_cast<Eigen::Index>(rest_.size()));
+    direction.head(others) = at.direction.head(others);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      if (places[k] < 0) continue;
+      direction[others + static_cast<Eigen::Index>(k)] = at.direction[others + places[k]];
+    }
+    at.direction = std::move(direction);
+  }
+  fit(at.point);
+  at.balance = system_->balance(at.point);
+}
+
+PathPoint StaticContinuation::fitted(const PathPoint& at) const {
+  PathPoint out = at;
+  fit(out);
+  return out;
+}
+
+StaticPoint StaticContinuation::predicted(PathPoint& from, double step, bool keeps) {
+  fit(from);
+  for (;; keeps = true) {
+    Vector prediction(system_->size() + 1);
+    prediction << step * from.direction, step * from.load_rate / scale_.load_factor;
+    StaticPoint out = moved(from.point, prediction);
+    if (!follow_pairs(from.point, out, keeps)) return out;
+    fit(from);
+  }
+}
+
+void StaticContinuation::look_around(PathPoint& at) {
+  if (at.direction.size() > 0) predicted(at, 1.0, false);
 }
 
 double StaticContinuation::motion(const Vector& x) const {
@@ -145,13 +197,21 @@ bool StaticContinuation::solve_step(StaticPoint& point, const StaticBalance& bal
   rest_.follow_contacts(balance.rest, point.rest);
   RestPivots pivots(*system_);
   step.resize(system_->size() + 1);
-  do {
+  for (;;) {
     step << -system_->residual(point, balance), 0.0;
     if (!factorise(point, loaded, plane, give)) return false;
     lu_->solve_in_place(step);
     if (!step.allFinite()) return false;
-  } while (pivots.revise(balance, step.head(system_->size()), point));
-  return true;
+    switch (pivots.revise(balance, step.head(system_->size()), point)) {
+      case RestPivots::Outcome::settled:
+        return true;
+      case RestPivots::Outcome::moved:
+        break;
+      case RestPivots::Outcome::lost:
+        resisting_ = pivots.lost_text();
+        return false;
+    }
+  }
 }
 
 StaticPoint StaticContinuation::moved(const StaticPoint& point, const Vector& step) const {
@@ -160,9 +220,9 @@ StaticPoint StaticContinuation::moved(const StaticPoint& point, const Vector& st
   return out;
 }
 
-std::optional<PathPoint> StaticContinuation::correct(StaticPoint point, const Plane& plane,
+std::optional<PathPoint> StaticContinuation::correct(StaticPoint point, const Plane& across,
                                                      double longest) {
-  const int n = system_->size();
+  Plane plane = across;
   double way = 0.0;
   bool has_shared = rest_.size() < 2;
   for (int iteration = 0;; ++iteration) {
@@ -183,6 +243,7 @@ std::optional<PathPoint> StaticContinuation::correct(StaticPoint point, const Pl
       out.balance = system_->balance(point);
     }
     remember_resistance(point, residual);
+    const int n = system_->size();
     Vector step;
     const double give = is_end ? StaticSystem::kGiveOfSharing : StaticSystem::kGive;
     if (iteration == kMaxIterations || !solve_step(point, out.balance, plane, step, give)) {
@@ -193,9 +254,15 @@ std::optional<PathPoint> StaticContinuation::correct(StaticPoint point, const Pl
       --iteration;
       continue;
     }
+    if (way + motion(step.head(n)) > longest) return std::nullopt;
+    StaticPoint next = moved(point, step);
+    if (follow_pairs(point, next, true)) {  // again, with the rows of those that it would meet
+      fit(point);
+      plane.x.conservativeResizeLike(Vector::Zero(system_->size()));  // no part of multipliers
+      continue;
+    }
     way += motion(step.head(n));
-    if (way > longest) return std::nullopt;
-    point = moved(point, step);
+    point = std::move(next);
   }
 }
 
@@ -255,8 +322,9 @@ StaticContinuation::CornerValue StaticContinuation::corner_value(
   return {system_->scaled_gap(row, contact.gap), contact.sign * system_->gap_slope(row)};
 }
 
-std::optional<PathPoint> StaticContinuation::around_corner(const PathPoint& at) {
-  if (scale_.load_control || at.direction.size() == 0) return std::nullopt;
+std::optional<PathPoint> StaticContinuation::around_corner(const PathPoint& found) {
+  if (scale_.load_control || found.direction.size() == 0) return std::nullopt;
+  const PathPoint at = fitted(found);
   const Corner corner = nearest_corner(at);
   if (corner.ahead > kNearCorner) return std::nullopt;
   const int n = system_->size();
@@ -319,7 +387,8 @@ PathPoint StaticContinuation::begin(const StaticPoint& start, double sign) {
   return std::move(*out);
 }
 
-std::optional<PathPoint> StaticContinuation::with_new_rows(const PathPoint& at) {
+std::optional<PathPoint> StaticContinuation::with_new_rows(const PathPoint& found) {
+  const PathPoint at = fitted(found);
   choose_rows(at.point);
   PathPoint from = at;
   // Dropped rows exert no force; Newton redistributes theirs.
@@ -330,23 +399,24 @@ std::optional<PathPoint> StaticContinuation::with_new_rows(const PathPoint& at) 
   return at_load_factor(from, at.point.load_factor);
 }
 
-std::optional<PathPoint> StaticContinuation::ahead(const PathPoint& from, double step,
+std::optional<PathPoint> StaticContinuation::ahead(const PathPoint& found, double step,
                                                    bool may_branch) {
+  PathPoint from = found;
+  StaticPoint prediction = predicted(from, step, true);
   Plane along = plane(from);
   if (scale_.load_control) along.load_factor *= from.load_rate < 0.0 ? -1.0 : 1.0;
-  Vector prediction(system_->size() + 1);
-  prediction << step * from.direction, step * from.load_rate / scale_.load_factor;
   const double way = step * motion(from.direction);
   const double longest =
       scale_.load_control ? std::max(kFarFromPrediction, way) : std::max(scale_.motion, way);
   try {
-    std::optional<PathPoint> out = correct(moved(from.point, prediction), along, longest);
+    std::optional<PathPoint> out = correct(std::move(prediction), along, longest);
     if (out && position_residual(*out) > kDependentGap * model_.length) {
       resisting_ = "joints that followed from others open";
       return std::nullopt;
     }
     if (out && out->direction.size() == 0) {
       if (!may_branch) return std::nullopt;
+      fit(from);
       out->direction = from.direction;
       out->load_rate = from.load_rate;
     }
@@ -361,6 +431,7 @@ std::optional<PathPoint> StaticContinuation::ahead(const PathPoint& from, double
 std::optional<PathPoint> StaticContinuation::at_load_factor(const PathPoint& near,
                                                             double load_factor) {
   StaticPoint point = near.point;
+  fit(point);
   point.load_factor = load_factor;
   const double sign = near.load_rate < 0.0 ? -1.0 : 1.0;
   Plane along = load_plane();
@@ -375,27 +446,29 @@ std::optional<PathPoint> StaticContinuation::at_load_factor(const PathPoint& nea
 }
 
 double StaticContinuation::alignment(const PathPoint& a, const PathPoint& b) const {
-  if (a.direction.size() != b.direction.size()) return 1.0;  // other joint rows since
-  Vector x = a.direction;
-  Vector y = b.direction;
+  Vector x = fitted(a).direction;
+  Vector y = fitted(b).direction;
+  if (x.size() != y.size()) return 1.0;  // other joint rows since
   for (int k = 0; k < system_->size(); ++k) {
     if (system_->share(k) == Share::joint) x[k] = y[k] = 0.0;
   }
   const double norms = x.norm() * y.norm();
   const double cosine = norms > 0.0 ? x.dot(y) / norms : 1.0;
-  const double motions = motion(a.direction) * motion(b.direction);
+  const double motions = motion(x) * motion(y);
   return cosine * motions / (scale_.motion * scale_.motion) +
          a.load_rate * b.load_rate / (scale_.load_factor * scale_.load_factor);
 }
 
-std::optional<StaticModes> StaticContinuation::modes(const PathPoint& at, double sigma) {
+std::optional<StaticModes> StaticContinuation::modes(const PathPoint& found, double sigma) {
+  const PathPoint at = fitted(found);
   system_->linearise(at.point, at.balance);
   RestStands loaded = at.point.rest;
   rest_.open_unloaded(kForceTolerance * std::max(force_, rest_.strongest(loaded)), loaded);
   return static_modes(*system_, sigma, loaded);
 }
 
-double StaticContinuation::force_residual(const PathPoint& at) const {
+double StaticContinuation::force_residual(const PathPoint& found) const {
+  const PathPoint at = fitted(found);
   return force_ * system_->largest(system_->residual(at.point, at.balance), Share::frame);
 }
 

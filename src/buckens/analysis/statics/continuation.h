@@ -46,9 +46,9 @@ class StaticContinuation {
  public:
   /// @param start an equilibrium
   /// @param force scale F of the system [N]
-  StaticContinuation(const model::Model& model, const dynamics::MassMetric& metric,
-                     const RestRows& rest, const std::vector<const ElasticCompliance*>& compliance,
-                     double t, const PathScale& scale, double force);
+  StaticContinuation(const model::Model& model, const dynamics::MassMetric& metric, RestRows& rest,
+                     const std::vector<const ElasticCompliance*>& compliance, double t,
+                     const PathScale& scale, double force);
 
   /// Makes an equilibrium the first point of a path; `sign` says whether μ grows (1) or falls (−1).
   /// @throws NumericalError if the tangent is singular there
@@ -69,6 +69,12 @@ class StaticContinuation {
   /// The place nearby where a row of RestRows opens or closes, and the path beyond it, which may go
   /// back from there: what softens meets a stop. Empty if no row is about to change.
   std::optional<PathPoint> around_corner(const PathPoint& at);
+
+  /// Gives rows to pairs of rigid contact groups that may meet within a full step from a point, and
+  /// takes them from all others. Within steps from there, pairs come, but do not go.
+  void look_around(PathPoint& at);
+  /// Fits a point that was found with others to the rows that there are now.
+  void fit(PathPoint& at) const;
 
   /// Cosine of the angle between the path's directions, weighted like a step.
   double alignment(const PathPoint& a, const PathPoint& b) const;
@@ -103,6 +109,12 @@ class StaticContinuation {
   CornerValue corner_value(std::size_t row, const StaticPoint& point,
                            const StaticBalance& balance) const;
   bool lead_on(PathPoint& at);
+  /// @return whether pairs have come that may meet on a way, or gone unless it `keeps` them
+  bool follow_pairs(const StaticPoint& from, const StaticPoint& to, bool keeps);
+  void fit(StaticPoint& point) const;
+  PathPoint fitted(const PathPoint& at) const;
+  /// A point ahead along the path's direction, with rows of all that may meet on the way there.
+  StaticPoint predicted(PathPoint& from, double step, bool keeps);
   void choose_rows(const StaticPoint& point);
   Plane plane(const PathPoint& at) const;
   Plane load_plane() const;
@@ -123,7 +135,7 @@ class StaticContinuation {
 
   const model::Model& model_;
   const dynamics::MassMetric& metric_;
-  const RestRows& rest_;
+  RestRows& rest_;
   const std::vector<const ElasticCompliance*>& compliance_;
   double t_;
   PathScale scale_;

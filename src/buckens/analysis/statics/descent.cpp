@@ -29,6 +29,12 @@ constexpr double kLongStep = 0.2;         // leaves the path of damped motion: m
 constexpr double kShortStep = 0.1;        // follows it well: less inertia
 constexpr double kFarFromBalance = 1e-2;  // of the largest force: only there steps must go downhill
 constexpr double kLeastInertia = 1e-9;  // of relevant σ: keeps directions without stiffness at rest
+// Where faces end, as below a ball on the edge of a box, long steps may lead to and fro for ever.
+// After so many without gain they are as short as of strongly damped motion, which does not.
+constexpr int kLongWithoutGain = 30;
+constexpr double kCalm = 10.0;  // of relevant σ
+constexpr double kGain = 0.5;   // of the least unbalanced force
+constexpr double kAway = 0.5;   // of the sum of all steps
 // A force that moves no point by this fraction of the model's length is rounding: an unloaded path
 // starts with multipliers of that size.
 constexpr double kMovesNothing = 1e-18;
@@ -38,7 +44,7 @@ constexpr double kFarMoved = 20.0;   // model lengths
 }  // namespace
 
 StaticDescent::StaticDescent(const model::Model& model, const dynamics::MassMetric& metric,
-                             const RestRows& rest,
+                             RestRows& rest,
                              const std::vector<const ElasticCompliance*>& compliance, double t,
                              StaticPoint start)
     : model_(model),
@@ -104,6 +110,19 @@ void StaticDescent::evaluate() {
   largest_force_ = std::max(start_force_, strongest_load(model_, rest_, point_, t_));
 }
 
+/// Gives rows to pairs that may meet on the way to a configuration; others `keep` theirs.
+/// @return whether the equations are others now
+bool StaticDescent::follow_pairs(const StaticPoint& to, bool keeps) {
+  if (!rest_.follow_pairs(motions_towards(model_, point_, to), keeps)) return false;
+  point_.rest = rest_.carried(point_.order, point_.rest);
+  point_.order = rest_.order();
+  const std::vector<int> rows = system_->rows_in_use();
+  system_.emplace(model_, rest_, compliance_, rows, t_, force_);
+  lu_.reset();
+  evaluate();
+  return true;
+}
+
 double StaticDescent::force_residual() const {
   return system_->force() * system_->largest(residual_, Share::frame);
 }
@@ -141,6 +160,8 @@ void StaticDescent::run() {
     if (++iterations_ > kMaxDescentIterations) break;
     const Vector step = find_step();
     advance(step);
+    // The next step is much like this one.
+    follow_pairs(system_->moved(point_, step), false);
     check_travel();
   }
   Eigen::Index worst = 0;
@@ -172,7 +193,11 @@ Vector StaticDescent::find_step() {
   for (int attempt = 0; attempt < 30; ++attempt) {
     Vector step;
     if (solve_step(step) && !leads_uphill(system_->tangent(sigma_, point_.rest), step)) {
-      return std::min(1.0, kLongestStep / motion_size(step)) * step;
+      step *= std::min(1.0, kLongestStep / motion_size(step));
+      if (!follow_pairs(system_->moved(point_, step), true)) return step;
+      system_->linearise(point_, balance_);  // again, with the rows of those that it would meet
+      --attempt;
+      continue;
     }
     if (attempt == 15) {  // more inertia does not help: other rows may
       choose_rows();
@@ -181,6 +206,7 @@ Vector StaticDescent::find_step() {
     }
     sigma_ *= 4.0;
   }
+  if (!lost_text_.empty()) throw NumericalError(lost_text_);
   throw NumericalError(
       "static equilibrium: the equations are singular whatever the inertia added (a dead centre of "
       "the joints); start from another position");
@@ -189,15 +215,23 @@ Vector StaticDescent::find_step() {
 /// The step of the linear equations at the present σ, with the rows closed that are closed after
 /// it.
 bool StaticDescent::solve_step(Vector& step, double give) {
+  const RestStands before = point_.rest;
   rest_.follow_contacts(balance_.rest, point_.rest);
   RestPivots pivots(*system_);
-  do {
+  for (auto outcome = RestPivots::Outcome::moved; outcome != RestPivots::Outcome::settled;) {
     residual_ = system_->residual(point_, balance_);
     step = -residual_;
     if (!factorise(system_->tangent(sigma_, point_.rest, give))) return false;
     lu_->solve_in_place(step);
     if (!step.allFinite()) return false;
-  } while (pivots.revise(balance_, step, point_));
+    outcome = pivots.revise(balance_, step, point_);
+    if (outcome != RestPivots::Outcome::lost) continue;
+    lost_text_ = pivots.lost_text();
+    point_.rest = before;
+    residual_ = system_->residual(point_, balance_);
+    return false;
+  }
+  lost_text_.clear();
   return true;
 }
 
@@ -262,7 +296,27 @@ void StaticDescent::advance(const Vector& step) {
   } else if (size < kShortStep || after <= 0.5 * before) {
     sigma_ *= after <= 0.5 * before ? 0.1 : 0.3;
   }
-  sigma_ = std::max(sigma_, kLeastInertia * reference_);
+  const bool is_calm = goes_to_and_fro(after, size);
+  sigma_ = std::max(sigma_, (is_calm ? kCalm : kLeastInertia) * reference_);
+}
+
+/// Whether many steps have led to no smaller force, nor far from where there was the smallest.
+/// @param residual unbalanced force after a step, scaled, @param size of the step
+bool StaticDescent::goes_to_and_fro(double residual, double size) {
+  if (residual <= kGain * least_residual_) {
+    least_residual_ = residual;
+    without_gain_ = 0;
+    way_without_gain_ = 0.0;
+    best_ = point_.poses;
+  }
+  way_without_gain_ += size;
+  if (++without_gain_ <= kLongWithoutGain) return false;
+  double away = 0.0;
+  for (std::size_t b = 0; b < best_.size(); ++b) {
+    const double turned = spatial::log_rotation(best_[b].q.conjugate() * point_.poses[b].q).norm();
+    away = std::max({away, turned, (point_.poses[b].p - best_[b].p).norm() / model_.length});
+  }
+  return away < kAway * way_without_gain_;
 }
 
 void StaticDescent::polish() {
@@ -357,7 +411,10 @@ void StaticDescent::push(const Vector& shape, double amount, double stiffness) {
   for (int k = 0; k < system_->size(); ++k) {
     if (system_->share(k) == Share::joint) step[k] = 0.0;
   }
-  point_ = system_->moved(point_, step);
+  const StaticPoint pushed = system_->moved(point_, step);
+  follow_pairs(pushed, true);
+  point_.poses = pushed.poses;
+  point_.y = pushed.y;
   sigma_ = std::max(reference_, 2.0 * std::abs(stiffness));
   evaluate();
 }

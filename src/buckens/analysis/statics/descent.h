@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,10 +17,11 @@ namespace buckens::analysis {
 ///
 /// Each iteration is an implicit step of W q̇ = force: Newton with W/τ² added. τ grows if steps are
 /// short or the unbalanced force falls, and shrinks if they are long or would lead uphill (negative
-/// curvature), so that Newton takes over only near an equilibrium.
+/// curvature), so that Newton takes over only near an equilibrium. Pairs of rigid contact groups
+/// that may meet in a step have rows in it.
 class StaticDescent {
  public:
-  StaticDescent(const model::Model& model, const dynamics::MassMetric& metric, const RestRows& rest,
+  StaticDescent(const model::Model& model, const dynamics::MassMetric& metric, RestRows& rest,
                 const std::vector<const ElasticCompliance*>& compliance, double t,
                 StaticPoint start);
 
@@ -50,6 +52,7 @@ class StaticDescent {
   void choose_rows();
   void set_scales();
   void evaluate();
+  bool follow_pairs(const StaticPoint& to, bool keeps);
   bool is_balanced() const;
   double misfit() const;
   bool factorise(const linalg::SparseMatrix& tangent);
@@ -60,6 +63,7 @@ class StaticDescent {
   bool leads_uphill(const linalg::SparseMatrix& tangent, const linalg::Vector& step) const;
   double motion_size(const linalg::Vector& step) const;
   void advance(const linalg::Vector& step);
+  bool goes_to_and_fro(double residual, double size);
   void polish();
   void check_dependent_rows();
   void check_travel() const;
@@ -67,7 +71,7 @@ class StaticDescent {
 
   const model::Model& model_;
   const dynamics::MassMetric& metric_;
-  const RestRows& rest_;
+  RestRows& rest_;
   const std::vector<const ElasticCompliance*>& compliance_;
   double t_;
   StaticPoint point_, start_;
@@ -84,7 +88,12 @@ class StaticDescent {
   double force_rounding_ = 0;  // of stiff springs [N]
   double no_force_ = 0;        // negligible force, see set_scales() [N]
   int iterations_ = 0;
+  double least_residual_ = HUGE_VAL;  // scaled, so far
+  int without_gain_ = 0;              // iterations since it has fallen
+  double way_without_gain_ = 0;       // sum of the steps since then
+  std::vector<spatial::Pose> best_;   // where it was
   int row_choices_ = 0;
+  std::string lost_text_;  // of rows that found no end in the last step; empty: they did
 };
 
 }  // namespace buckens::analysis

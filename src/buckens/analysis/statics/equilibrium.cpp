@@ -97,12 +97,13 @@ void settle_statically(const model::Model& model, StaticDescent& descent, Static
 }
 
 StaticReport find_static_equilibrium(const model::Model& model, const dynamics::MassMetric& metric,
-                                     model::State& state, model::RestFriction friction) {
+                                     model::State& state, model::RestFriction friction,
+                                     model::RigidPairs* groups) {
   StaticReport report;
   const Compliances compliances(model);
   report.factorisations = static_cast<int>(compliances.owned.size());
   note_laws_of_time(model, state.t, report.notes);
-  const RestRows rest(model, friction, state);
+  RestRows rest(model, friction, state, groups);
   StaticDescent descent(model, metric, rest, compliances.of_body, state.t,
                         static_point(model, rest, state));
   report.warnings = rest.overlaps(descent.balance().rest);
@@ -111,6 +112,7 @@ StaticReport find_static_equilibrium(const model::Model& model, const dynamics::
   const StaticBalance balance = descent.system().balance(point);
   set_static_state(point, rest, balance, compliances, state);
   report.rest = point.rest;
+  report.order = point.order;
   note_unloaded(rest, descent, report.notes);
   for (std::string& text :
        overloaded_friction(friction_demands(model, metric, rest, point.rest, state))) {

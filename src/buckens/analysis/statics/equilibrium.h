@@ -28,6 +28,7 @@ struct StaticReport {
   /// About what overlapped, and what friction could not hold.
   std::vector<std::string> warnings;
   RestStands rest;  ///< of the rows of force laws that hold, see RestRows
+  RestOrder order;  ///< of the pairs that have rows among them
 };
 
 /// Moves frames and meshes to a stable equilibrium under gravity, springs and loads at state.t,
@@ -42,6 +43,8 @@ struct StaticReport {
 /// @param state assembled, or as close as rigid bodies come; its memory says which loads are off,
 /// and gets the stands of rows that hold at rest
 /// @param friction whether joints and rigid contacts that rub hold where they are
+/// @param groups of this model; null: it has no rigid contact groups. They are left with the pairs
+/// that are near each other in the equilibrium
 /// @throws ModelError naming the body and the direction in
 /// which nothing holds it, or the joint that cannot be
 /// closed
@@ -52,7 +55,8 @@ StaticReport find_static_equilibrium(const model::Model& model, model::State& st
 /// The same if the mass metric already exists.
 StaticReport find_static_equilibrium(const model::Model& model, const dynamics::MassMetric& metric,
                                      model::State& state,
-                                     model::RestFriction friction = model::RestFriction::free);
+                                     model::RestFriction friction = model::RestFriction::free,
+                                     model::RigidPairs* groups = nullptr);
 
 class StaticDescent;
 

@@ -20,6 +20,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/base/log.h"
 #include "buckens/base/version.h"
+#include "buckens/model/build/paired_model.h"
 
 namespace buckens::analysis {
 
@@ -44,15 +45,16 @@ bool have_same_rows(const RestStands& a, const RestStands& b) {
 class Path {
  public:
   Path(const model::BuiltModel& built, results::RecordSink& sink, const StaticPathOptions& options)
-      : built_(built),
-        model_(built.model),
+      : paired_(built),
+        built_(paired_.built()),
+        model_(built_.model),
         options_(options),
         spec_(built.description.static_path.value_or(StaticSpec{})),
         metric_(model_),
         compliances_(model_),
         placed_(assemble()),
-        rest_(model_, spec_.friction, placed_),
-        record_(built, metric_, rest_, compliances_, spec_.time, sink) {
+        rest_(model_, spec_.friction, placed_, paired_.pairs()),
+        record_(built_, metric_, rest_, compliances_, spec_.time, sink) {
     record_.summary.warnings = std::move(notes_);
   }
 
@@ -95,7 +97,7 @@ class Path {
   std::optional<PathPoint> refine(const PathPoint& origin, const PathPoint& from,
                                   const PathPoint& to,
                                   const std::function<double(PathPoint&)>& value, double tolerance);
-  std::vector<PathPoint> critical_points(const PathPoint& next);
+  std::vector<PathPoint> critical_points(const PathPoint& found);
   std::optional<PathPoint> end_between(const PathPoint& origin, const PathPoint& from,
                                        const PathPoint& to);
   void examine(PathPoint& at);
@@ -103,6 +105,7 @@ class Path {
 
   double range() const { return spec_.load_factor[1] - spec_.load_factor[0]; }
 
+  model::PairedModel paired_;
   const model::BuiltModel& built_;
   const model::Model& model_;
   const StaticPathOptions& options_;
@@ -251,6 +254,7 @@ bool Path::turn_corner() {
 
 /// One step, shortened until Newton gets there without a sharp turn of the path.
 PathPoint Path::next_point() {
+  continuation_->look_around(*now_);
   bool has_new_rows = false;
   int corners = 0;
   for (;;) {
@@ -302,13 +306,15 @@ bool Path::take(const PathPoint& found) {
   stations.push_back(std::move(next));
   const PathPoint origin = *now_;
   for (std::size_t k = 0; k < stations.size(); ++k) {
-    const PathPoint& station = stations[k];
+    PathPoint& station = stations[k];
     if (auto end = end_between(origin, *now_, station)) {
       examine(*end);
       now_ = std::move(*end);
+      continuation_->fit(*now_);
       record_.write(*now_);
       return true;
     }
+    continuation_->fit(station);
     record_.write(station);
     if (k + 1 < stations.size()) record_.add_critical_point(station);
     now_ = station;
@@ -361,11 +367,13 @@ std::optional<PathPoint> Path::refine(const PathPoint& origin, const PathPoint& 
   return best;
 }
 
-std::vector<PathPoint> Path::critical_points(const PathPoint& next) {
+std::vector<PathPoint> Path::critical_points(const PathPoint& found) {
   std::vector<PathPoint> out;
   if (spec_.method == StaticMethod::load) return out;
   const double full = std::abs(range()) / spec_.steps;
-  const PathPoint from = *now_;
+  PathPoint from = *now_, next = found;
+  continuation_->fit(from);
+  continuation_->fit(next);
   bool has_limit = false;
   if (from.load_rate * next.load_rate < 0.0) {
     auto limit = refine(

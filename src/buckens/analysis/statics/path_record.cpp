@@ -179,13 +179,10 @@ void StaticPathRecord::write(const PathPoint& at) {
 }
 
 void StaticPathRecord::watch_friction(const PathPoint& at) {
-  const std::vector<FrictionDemand> now =
-      friction_demands(model_, metric_, rest_, at.point.rest, state_);
-  friction_.resize(now.size());
-  for (std::size_t k = 0; k < now.size(); ++k) {
-    if (now[k].ratio() > friction_[k].demand.ratio()) {
-      friction_[k] = {now[k], at.point.load_factor};
-    }
+  for (const FrictionDemand& now :
+       friction_demands(model_, metric_, rest_, at.point.rest, state_)) {
+    WorstFriction& worst = friction_[now.load];
+    if (now.ratio() > worst.demand.ratio()) worst = {now, at.point.load_factor};
   }
 }
 
@@ -229,7 +226,7 @@ void StaticPathRecord::add_body(const model::WholeBody& whole) {
 void StaticPathRecord::finish(double load_factor) {
   summary.static_path->load_factor = load_factor;
   for (const model::WholeBody& whole : model_.wholes) add_body(whole);
-  for (const WorstFriction& worst : friction_) {
+  for (const auto& [load, worst] : friction_) {
     for (const std::string& text : overloaded_friction({worst.demand})) {
       summary.trust.push_back(fmt::format("at load factor {:.6g} {}", worst.load_factor, text));
     }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -70,7 +72,7 @@ class StaticPathRecord {
     FrictionDemand demand;
     double load_factor = 0;
   };
-  std::vector<WorstFriction> friction_;  // over the path, load by load
+  std::map<std::string, WorstFriction> friction_;  // over the path, by what rubs
 };
 
 }  // namespace buckens::analysis

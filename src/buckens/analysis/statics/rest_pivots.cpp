@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "buckens/base/errors.h"
-
 namespace buckens::analysis {
 
 namespace {
@@ -14,6 +12,9 @@ namespace {
 // Rounds in which all rows may move although no fewer of them disagree.
 constexpr int kPatience = 5;
 constexpr int kMostPivots = 200;
+// Beyond so many, rows along a surface stay as they are: which of them are closed follows from
+// others, and that may lead in circles.
+constexpr int kFollowing = 60;
 // Pulls of this share of the force scale, and overlaps of the length, are rounding.
 constexpr double kRoundedPivot = 1e-12;
 
@@ -39,16 +40,17 @@ std::vector<std::size_t> RestPivots::disagreeing(const StaticBalance& balance,
   return out;
 }
 
-bool RestPivots::revise(const StaticBalance& balance, const linalg::Vector& step,
-                        StaticPoint& point) {
+RestPivots::Outcome RestPivots::revise(const StaticBalance& balance, const linalg::Vector& step,
+                                       StaticPoint& point) {
   const RestRows& rest = system_.rest();
   std::vector<std::size_t> rows = disagreeing(balance, step, point);
-  if (rows.empty()) return false;
+  if (rows.empty()) return Outcome::settled;
   if (++rounds_ > kMostPivots) {
-    throw NumericalError(fmt::format(
+    lost_text_ = fmt::format(
         "static equilibrium: load \"{}\" and {} other rigid rows find no stand, pressing or open, "
         "that suits all of them ({} changes); give one of them a `stiffness`",
-        rest.name(rows.back()), rows.size() - 1, kMostPivots));
+        rest.name(rows.back()), rows.size() - 1, kMostPivots);
+    return Outcome::lost;
   }
   if (rows.size() < fewest_) {
     fewest_ = rows.size();
@@ -62,8 +64,8 @@ bool RestPivots::revise(const StaticBalance& balance, const linalg::Vector& step
     loads::RowStand& stand = point.rest[k];
     stand.regime = stand.regime != 0 ? 0 : balance.rest.contacts[k].regime;
   }
-  rest.follow_contacts(balance.rest, point.rest);
-  return true;
+  if (rounds_ <= kFollowing) rest.follow_contacts(balance.rest, point.rest);
+  return Outcome::moved;
 }
 
 }  // namespace buckens::analysis

@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include <fmt/format.h>
 
-#include "buckens/base/errors.h"
+#include "buckens/dynamics/contact_groups.h"
 #include "buckens/dynamics/travel.h"
 #include "buckens/loads/ball_friction.h"
 #include "buckens/loads/contact.h"
@@ -57,15 +58,12 @@ bool rubs(const loads::ForceElement& element) {
          dynamic_cast<const loads::CoordinateBrake*>(&element) != nullptr;
 }
 
-void refuse_rigid_groups(const model::Model& model) {
-  for (const auto& group : model.contact_groups) {
-    if (!group->rigid) continue;
-    throw ModelError(
-        fmt::format("load \"{}\": equilibria and small vibrations with rigid `contacts` of many "
-                    "bodies are not known; give it a `stiffness` or a `modulus`, name the pairs "
-                    "one by one as `contact`, or run a simulation until all is at rest",
-                    model.loads[group->load].name));
-  }
+/// Whether a load is rigid contacts of many bodies, with friction.
+bool is_rough_rigid_group(const model::Model& model, std::size_t load) {
+  return std::any_of(
+      model.contact_groups.begin(), model.contact_groups.end(), [load](const auto& group) {
+        return group->load == load && group->rigid && group->rigid->static_coefficient > 0.0;
+      });
 }
 
 dynamics::SystemRow rest_row_of(const model::Model& model, const model::Load& load,
@@ -82,10 +80,12 @@ dynamics::SystemRow rest_row_of(const model::Model& model, const model::Load& lo
 }  // namespace
 
 RestRows::RestRows(const model::Model& model, model::RestFriction friction,
-                   const model::State& state)
-    : model_(model) {
-  refuse_rigid_groups(model);
-  for (std::size_t k = 0; k < model.loads.size(); ++k) {
+                   const model::State& state, model::RigidPairs* groups)
+    : model_(model), friction_(friction), groups_(groups) {
+  switched_.off = state.memory.off;
+  const std::size_t count =
+      model.pair_loads.empty() ? model.loads.size() : model.pair_loads.front().first;
+  for (std::size_t k = 0; k < count; ++k) {
     const model::Load& load = model.loads[k];
     if (state.memory.is_off(k)) continue;
     if (stop_of(load) != nullptr) {
@@ -94,16 +94,108 @@ RestRows::RestRows(const model::Model& model, model::RestFriction friction,
       rows_.push_back(row);
     } else if (friction == model::RestFriction::frozen) {
       add_friction(state, k);
-    } else if (rubs(*load.element) || rough_group(model, k) != nullptr) {
+    } else if (rubs(*load.element) || rough_group(model, k) != nullptr ||
+               is_rough_rigid_group(model, k)) {
       leaves_friction_ = true;
     }
   }
-  const auto motions = dynamics::motions_of(model, state);
+  num_lasting_ = rows_.size();
+  auto motions = dynamics::motions_of(model, state);
   RestValues values;
   evaluate(motions, state.t, values);
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     if (rows_[k].kind == Kind::held) rows_[k].start = values.values[k];
   }
+  for (dynamics::BodyMotion& motion : motions) {
+    motion.frame.w.setZero();
+    motion.frame.v.setZero();
+    motion.y_dot.setZero();
+  }
+  follow_pairs(motions, false);
+}
+
+bool RestRows::is_off(const model::NearPair& pair) const {
+  return switched_.is_off(model_.contact_groups[static_cast<std::size_t>(pair.group)]->load);
+}
+
+bool RestRows::follow_pairs(const std::vector<dynamics::BodyMotion>& way, bool keeps) {
+  if (groups_ == nullptr) return false;
+  std::vector<model::NearPair> now = dynamics::find_rigid_pairs_on(model_, way);
+  std::erase_if(now, [this](const model::NearPair& pair) { return is_off(pair); });
+  if (keeps) {
+    for (const PairRows& known : order_) now.push_back(known.pair);
+    std::sort(now.begin(), now.end());
+    now.erase(std::unique(now.begin(), now.end()), now.end());
+  }
+  const auto& loads = model_.pair_loads;
+  const bool are_same =
+      std::equal(now.begin(), now.end(), loads.begin(), loads.end(),
+                 [](const model::NearPair& a, const model::PairLoads& b) { return a == b.pair; });
+  if (!are_same) groups_->set(now);
+  const RestOrder before = order_;
+  add_rigid_pairs();
+  return order_ != before;
+}
+
+void RestRows::add_rigid_pairs() {
+  rows_.resize(num_lasting_);
+  order_.clear();
+  for (const model::PairLoads& pair : model_.pair_loads) {
+    const std::size_t before = rows_.size();
+    int across = -1;
+    for (std::size_t k = pair.first; k < pair.first + pair.count; ++k) {
+      if (stop_of(model_.loads[k]) != nullptr) {
+        across = static_cast<int>(rows_.size());
+        rows_.push_back({Kind::one_sided, k});
+      } else if (friction_ == model::RestFriction::frozen) {
+        RestRow row{Kind::along, k};
+        row.across = across;
+        rows_.push_back(row);
+      }
+    }
+    order_.push_back({pair.pair, rows_.size() - before});
+  }
+}
+
+std::vector<int> RestRows::places_in(const RestOrder& then) const {
+  std::vector<int> out(rows_.size(), -1);
+  std::iota(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(num_lasting_), 0);
+  std::map<model::NearPair, std::size_t> first_then;
+  std::size_t place = num_lasting_;
+  for (const PairRows& pair : then) {
+    first_then.emplace(pair.pair, place);
+    place += pair.count;
+  }
+  auto row = out.begin() + static_cast<std::ptrdiff_t>(num_lasting_);
+  for (const PairRows& pair : order_) {
+    const auto end = row + static_cast<std::ptrdiff_t>(pair.count);
+    const auto known = first_then.find(pair.pair);
+    if (known != first_then.end()) std::iota(row, end, static_cast<int>(known->second));
+    row = end;
+  }
+  return out;
+}
+
+RestStands RestRows::carried(const RestOrder& then, const RestStands& stands) const {
+  RestStands out(rows_.size());
+  const std::vector<int> places = places_in(then);
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    if (places[k] >= 0) out[k] = stands[static_cast<std::size_t>(places[k])];
+  }
+  return out;
+}
+
+std::string RestRows::name(std::size_t k) const {
+  const std::size_t load = rows_[k].load;
+  const std::string& name = model_.loads[load].name;
+  if (model_.pair_loads.empty() || load < model_.pair_loads.front().first) return name;
+  const auto bodies = {model_.loads[load].first.body, model_.loads[load].second.body};
+  std::vector<std::string> names;
+  for (const int b : bodies) {
+    const bool is_ground = b == model::kGround;
+    names.push_back(is_ground ? "ground" : model_.bodies[static_cast<std::size_t>(b)].name);
+  }
+  return fmt::format("{}\" between \"{}\" and \"{}", name, names[0], names[1]);
 }
 
 void RestRows::add_friction(const model::State& state, std::size_t k) {

@@ -6,6 +6,7 @@
 
 #include "buckens/dynamics/forces.h"
 #include "buckens/loads/rigid_law.h"
+#include "buckens/model/build/rigid_pairs.h"
 #include "buckens/model/spec/rest_friction.h"
 #include "buckens/model/state.h"
 
@@ -25,7 +26,7 @@ struct RestRow {
   std::size_t load = 0;   ///< index into Model::loads
   int part = 0;           ///< which of the soft rows of a law with several
   int across = -1;        ///< of `along`: the row that presses; −1 of elastic contacts
-  int pair = -1;          ///< of contacts of many bodies: which of their pairs, −1 of all others
+  int pair = -1;          ///< of elastic contacts of many bodies: which pair, −1 of all others
   bool is_angle = false;  ///< its coordinate, else a length
   double start = 0;       ///< of `held`: the value that it holds [m] or [rad]
 };
@@ -33,6 +34,15 @@ struct RestRow {
 /// Which rows are closed, and with what force: RowStand::regime is the end of a one-sided row, 1 of
 /// others, 0 if open. A row that has been opened keeps its force until the next step takes it away.
 using RestStands = std::vector<loads::RowStand>;
+
+/// How many of the rows belong to a pair of a rigid contact group. The rows of all pairs that are
+/// near each other stand behind all others.
+struct PairRows {
+  model::NearPair pair;
+  std::size_t count = 0;
+  bool operator==(const PairRows&) const = default;
+};
+using RestOrder = std::vector<PairRows>;
 
 /// The rows in one configuration.
 struct RestValues {
@@ -48,15 +58,30 @@ class RestRows {
  public:
   /// @param model must outlive this object
   /// @param state as it starts: loads that are off have no rows, frozen friction holds what is here
-  RestRows(const model::Model& model, model::RestFriction friction, const model::State& state);
+  /// @param groups of this model, must outlive this object; null: it has no rigid contact groups
+  RestRows(const model::Model& model, model::RestFriction friction, const model::State& state,
+           model::RigidPairs* groups = nullptr);
+
+  /// Gives rows to pairs of rigid contact groups that may meet on a way.
+  /// @param way the bodies at its start, with velocities that lead to its end within 1 s
+  /// @param keeps others keep theirs, else they lose them
+  /// @return whether rows have come or gone: what has one entry per row is then to be carried()
+  bool follow_pairs(const std::vector<dynamics::BodyMotion>& way, bool keeps);
+  /// Pairs that have rows, in their order.
+  const RestOrder& order() const { return order_; }
+  /// Where each row stood when pairs had rows in this order; −1: it is new.
+  std::vector<int> places_in(const RestOrder& then) const;
+  /// Stands of then as those of the rows there are now. What is new is open.
+  RestStands carried(const RestOrder& then, const RestStands& stands) const;
 
   const model::Model& model() const { return model_; }
   std::size_t size() const { return rows_.size(); }
   /// Whether the model has friction that is left out.
   bool leaves_friction() const { return leaves_friction_; }
   const RestRow& operator[](std::size_t k) const { return rows_[k]; }
-  const std::string& name(std::size_t k) const { return model_.loads[rows_[k].load].name; }
-  /// @pre the row is that of a pair of many bodies
+  /// Its load, and of contacts among many bodies which two: for texts that quote it.
+  std::string name(std::size_t k) const;
+  /// @pre the row is that of an elastic pair of many bodies
   const model::NearPair& pair(std::size_t k) const {
     return pairs_[static_cast<std::size_t>(rows_[k].pair)];
   }
@@ -98,6 +123,9 @@ class RestRows {
 
  private:
   void add_friction(const model::State& state, std::size_t load);
+  /// Rows of Model::pair_loads.
+  void add_rigid_pairs();
+  bool is_off(const model::NearPair& pair) const;
   /// All pairs that may touch: which of them do is known at the end.
   void add_pairs(std::size_t load);
   void evaluate_pair(std::size_t k, const std::vector<dynamics::BodyMotion>& motions, double t,
@@ -105,7 +133,12 @@ class RestRows {
   double length_of(std::size_t k) const { return rows_[k].is_angle ? 1.0 : model_.length; }
 
   const model::Model& model_;
+  model::RestFriction friction_;
+  model::RigidPairs* groups_;
+  model::RowMemory switched_;  // what is off
   std::vector<RestRow> rows_;
+  std::size_t num_lasting_ = 0;  // rows of other loads than those of rigid pairs
+  RestOrder order_;
   std::vector<model::NearPair> pairs_;
   bool leaves_friction_ = false;
 };

@@ -33,6 +33,7 @@ StaticPoint static_point(const model::Model& model, const RestRows& rest,
   RestValues values;
   rest.evaluate(motions_at(model, point), state.t, values);
   point.rest = rest.start(values);
+  point.order = rest.order();
   return point;
 }
 

@@ -113,6 +113,17 @@ std::vector<dynamics::BodyMotion> motions_at(const model::Model& model, const St
   return motions;
 }
 
+std::vector<dynamics::BodyMotion> motions_towards(const model::Model& model,
+                                                  const StaticPoint& from, const StaticPoint& to) {
+  std::vector<dynamics::BodyMotion> out = motions_at(model, from);
+  for (std::size_t b = 0; b < out.size(); ++b) {
+    out[b].frame.v = to.poses[b].p - from.poses[b].p;
+    out[b].frame.w = spatial::log_rotation(from.poses[b].q.conjugate() * to.poses[b].q);
+    out[b].y_dot.head(from.y[b].size()) = to.y[b] - from.y[b];
+  }
+  return out;
+}
+
 StaticBalance StaticSystem::balance(const StaticPoint& point) const {
   const std::vector<dynamics::BodyMotion> motions = motions_at(model_, point);
   StaticBalance out;

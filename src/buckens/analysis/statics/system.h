@@ -16,11 +16,16 @@ struct StaticPoint {
   std::vector<Eigen::VectorXd> y;    ///< interface values of the flexible bodies, empty: rigid
   linalg::Vector lambda;             ///< multipliers of all joint rows; unused rows are zero
   RestStands rest;                   ///< of RestRows
+  RestOrder order;                   ///< of the pairs that have rows among them
   double load_factor = 1;            ///< of applied forces and torques
 };
 
 /// The bodies at rest in a configuration.
 std::vector<dynamics::BodyMotion> motions_at(const model::Model& model, const StaticPoint& point);
+
+/// The bodies as they set out from one configuration to reach another within 1 s.
+std::vector<dynamics::BodyMotion> motions_towards(const model::Model& model,
+                                                  const StaticPoint& from, const StaticPoint& to);
 
 /// Everything that acts in a configuration.
 struct StaticBalance {

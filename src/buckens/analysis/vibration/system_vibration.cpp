@@ -18,6 +18,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/body/shift_estimate.h"
 #include "buckens/linalg/inverse_iteration.h"
+#include "buckens/model/build/paired_model.h"
 
 namespace buckens::analysis {
 
@@ -36,7 +37,11 @@ constexpr double kNoShareOfMotion = 1e-6;
 class SystemVibrations {
  public:
   SystemVibrations(const model::BuiltModel& built, const SystemVibrationSettings& settings)
-      : built_(built), model_(built.model), settings_(settings), metric_(model_) {}
+      : paired_(built),
+        built_(paired_.built()),
+        model_(built_.model),
+        settings_(settings),
+        metric_(model_) {}
 
   VibrationReport run();
 
@@ -50,12 +55,14 @@ class SystemVibrations {
   double largest_motion_of(const std::vector<BodyShape>& shape) const;
   void judge(const SystemPencil& pencil, const Matrix& shapes);
 
+  model::PairedModel paired_;
   const model::BuiltModel& built_;
   const model::Model& model_;
   const SystemVibrationSettings settings_;
   dynamics::MassMetric metric_;
   Matrix zero_;
   RestStands stands_;    // in the equilibrium
+  RestOrder order_;      // of the pairs among them
   double no_force_ = 0;  // [N]
   VibrationReport out_;
 };
@@ -78,10 +85,11 @@ void SystemVibrations::find_position() {
   }
   if (settings_.about == RestPosition::static_equilibrium || !is_closed) {
     const StaticReport report =
-        find_static_equilibrium(model_, metric_, out_.position, initial.friction);
+        find_static_equilibrium(model_, metric_, out_.position, initial.friction, paired_.pairs());
     out_.notes.insert(out_.notes.end(), report.warnings.begin(), report.warnings.end());
     out_.notes.insert(out_.notes.end(), report.notes.begin(), report.notes.end());
     stands_ = report.rest;
+    order_ = report.order;
     no_force_ = report.force_tolerance;
     out_.work.factorisations += report.factorisations;
     out_.work.solves += report.solves;
@@ -96,7 +104,7 @@ RestTangent SystemVibrations::tangent() {
   dynamics::evaluate_constraints(model_, motions, out_.position.t, &out_.position.memory,
                                  constraints);
   const model::RestFriction friction = built_.description.initial.friction;
-  const RestRows rest(model_, friction, out_.position);
+  const RestRows rest(model_, friction, out_.position, paired_.pairs());
   RestValues values;
   rest.evaluate(motions, out_.position.t, values);
   const bool is_static = settings_.about == RestPosition::static_equilibrium;
@@ -111,7 +119,7 @@ RestTangent SystemVibrations::tangent() {
     return rest_tangent(model_, out_.position, metric_.split(constraints.rows).independent,
                         RestLoads::springs);
   }
-  ClosedRows closed{rest, stands_, {}};
+  ClosedRows closed{rest, rest.carried(order_, stands_), {}};
   rest.open_unloaded(no_force_, closed.stands);
   const std::vector<char> holds = rows_that_hold(rest, values, closed.stands, metric_);
   std::vector<int> candidates;
