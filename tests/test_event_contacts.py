@@ -191,10 +191,55 @@ def test_what_a_contact_keeps_is_refused(buckens, tmp_path, law, change, words):
     buckens("check", "model.yaml").must(2, "model.yaml:", "events.worn", *words)
 
 
-def test_contacts_of_many_bodies_are_refused(buckens, tmp_path):
-    text = ball("X", "loads.floor.static: 0.3", "0.6")
-    many = "contacts: {among: [{on: ground, plane: [0, 0, 1]}, {bodies: ball, sphere: 100 mm}], static: 0.1}"
-    start, end = text.index("contact: {between"), text.index(", X}}}")
-    (tmp_path / "model.yaml").write_text(text[:start] + many + text[end + 4:])
-    buckens("check", "model.yaml").must(2, "events.worn", 'events cannot change "loads.floor.static": contacts among many bodies stay as they are',
-                                        "one by one as `contact`")
+def together(text):
+    """The same with the contact as one of many bodies."""
+    start, end = text.index("contact: {between"), text.index("], ", text.index("shapes: [")) + 3
+    before = text[start:end]
+    bodies = before[before.index("between: [ground, ") + 18:before.index("], shapes")]
+    first, second = before[before.index("shapes: [") + 9:-3].split("}, ", 1)
+    return text[:start] + f"contacts: {{among: [{{on: ground, {first[1:]}}}, {{on: {bodies}, {second[1:-1]}}}], " + text[end:]
+
+
+@pytest.mark.parametrize("law, change", [
+    ("restitution: 0.8, static: 0.1", "loads.floor.restitution: 0.5, loads.floor.static: 0.4"),
+    ("stiffness: 1e5, restitution: 0.8, damping: 20, static: 0.1, dynamic: 0.05, stribeck-velocity: 0.1",
+     "loads.floor.stiffness: 2e5, loads.floor.restitution: 0.5, loads.floor.damping: 100, loads.floor.static: 0.3, loads.floor.dynamic: 0.2"),
+])
+def test_a_group_changes_as_its_contacts_do(sensors, goes_on, law, change):
+    """Bounces with spin, on ground that changes while the ball flies, and again while it touches the ground (at 1.45 s)."""
+    text = ball(law, change, "0.6003", speed="bodies: {ball: {velocity: [0.5, 0, 0]}}", start="0.5", long="1.6", step="0.5 ms")
+    text = text.replace("events: {worn:", f"events: {{again: {{when: later, direction: rising, set: {{{change.replace('0.5', '0.6').replace('0.4', '0.2')}}}}}, worn:").replace("signals: {", "signals: {later: t - 1.45, ")
+    one, group = sensors(text, "-q"), sensors(together(text), "-q")
+    for name in one:
+        if name.startswith("n."):
+            continue  # other quantities
+        # The same in another order of operations.
+        assert group[name] == pytest.approx(one[name], rel=1e-9, abs=1e-9), name
+    assert group["n.normal"] == pytest.approx(one["n.normal"], rel=1e-6, abs=1e-6) and group["n.friction"] == pytest.approx(one["n.friction"], rel=1e-6, abs=1e-6)
+    for out in (one, group):
+        assert numpy.abs(out["balance"]).max() < 2e-2 * out["lost"][-1]
+    goes_on(together(text), "1.6 s", "1 s", len(one["t"]))
+    goes_on(together(text), "1.6 s", "0.5 s", len(one["t"]))
+
+
+@pytest.mark.parametrize("law", ["stiffness: 2e4", "stiffness: 2e4, static: 0.2"])
+def test_ground_stiffens_below_two_balls_of_a_group(sensors, law):
+    """Each lies 1 mm deep on 2e4 N/m, which holds 10 mJ; twice as stiff the ground holds 20 mJ: work of the event."""
+    text = together(ball(law, "loads.floor.stiffness: 4e4", "0.1003", start="0.099", long="0.3"))
+    text = text.replace("bodies: {ball:", "bodies: {other: {rigid: {mass: 2 kg, inertia: [1, 1, 1]}, at: {position: [1, 0, 0.099]}}, ball:")
+    text = text.replace("{on: ball, sphere: 100 mm}", "{bodies: [ball, other], sphere: 100 mm}")
+    out = sensors(text, "-q")
+    assert (out["n.touching"][out["t"] < 0.1] == 2).all()
+    assert out["events"][-1] == pytest.approx(2 * 0.5 * 2e4 * 1e-6, rel=1e-9)
+    assert numpy.abs(out["balance"]).max() < 1e-6
+    assert out["n.normal"][-1] != pytest.approx(40, rel=1e-2)  # they swing
+
+
+def test_what_a_group_keeps_is_refused(buckens, tmp_path):
+    for law, change, words in (("restitution: 0.8", "loads.floor.stiffness: 1e5", "here they can change loads.floor.restitution"),
+                               ("static: 0.3", "loads.floor.among: 1", "here they can change"),
+                               ("restitution: 0.8", "loads.floor.restitution: 1.2", "expected 0 to 1, found 1.2"),
+                               ("stiffness: 1e5, restitution: 0.8", "loads.floor.restitution: 0", "expected 0.01 to 1 for an elastic contact"),
+                               ("modulus: 210 GPa", "loads.floor.stiffness: 1e5", "is not given in the model")):
+        (tmp_path / "model.yaml").write_text(together(ball(law, change, "0.6")))
+        buckens("check", "model.yaml").must(2, "model.yaml:", "events.worn", words)

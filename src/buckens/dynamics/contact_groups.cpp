@@ -44,8 +44,8 @@ struct PairAt {
         contact(group.contact(static_cast<std::size_t>(pair.first),
                               static_cast<std::size_t>(pair.second))) {}
 
-  loads::Sight sight(double t, const double* states) const {
-    return {t, first_at.motion, second_at.motion, {}, {}, states, {}};
+  loads::Sight sight(double t, const double* states, std::span<const double> signals) const {
+    return {t, first_at.motion, second_at.motion, {}, {}, states, {}, signals};
   }
 };
 
@@ -209,7 +209,7 @@ std::vector<NearPair> find_rigid_pairs_on(const model::Model& model,
 void add_group_forces(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                       const Circumstances& around, Forces& out) {
   for_near_pairs(model, motions, around.memory, [&](const PairAt& at, const double* states) {
-    const loads::Action action = at.contact.respond(at.sight(t, states));
+    const loads::Action action = at.contact.respond(at.sight(t, states, signals_of(around)));
     add_wrench(model, at.first.marker, at.first_at, action.on_first, out);
     add_wrench(model, at.second.marker, at.second_at, action.on_second, out);
     out.stored_energy += action.stored_energy;
@@ -224,7 +224,7 @@ void append_group_tangents(const model::Model& model, const std::vector<BodyMoti
                            double t, const Circumstances& around, SoftRows& out) {
   const std::size_t before = out.rows.size();
   for_near_pairs(model, motions, around.memory, [&](const PairAt& at, const double* states) {
-    const loads::Sight sight = at.sight(t, states);
+    const loads::Sight sight = at.sight(t, states, signals_of(around));
     out.of_one.clear();
     at.contact.append_tangent(sight, out.of_one);
     out.regimes.push_back(at.contact.respond(sight).regime);
@@ -271,13 +271,41 @@ void advance_near(const model::Model& model, const std::vector<BodyMotion>& moti
     }
     const bool is_known = known != before.near.end() && *known == out.near[k];
     if (is_known) {
-      pairs[k].contact.find_states(pairs[k].sight(t, known_states), states);
+      pairs[k].contact.find_states(pairs[k].sight(t, known_states, signals_of(around)), states);
     } else {
-      pairs[k].contact.start_states(pairs[k].sight(t, nullptr), states);
+      pairs[k].contact.start_states(pairs[k].sight(t, nullptr, signals_of(around)), states);
     }
     states += pairs[k].contact.num_states();
   }
   pairs.clear();
+}
+
+void restrain_near(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
+                   model::RowMemory& memory) {
+  const linalg::Vector before = memory.near_states;
+  const double* known = before.data();
+  double* states = memory.near_states.data();
+  for (const NearPair& pair : memory.near) {
+    const PairAt at(model, pair, motions);
+    const int count = at.contact.num_states();
+    if (at.contact.is_changed()) {
+      at.contact.find_states(at.sight(t, known, memory.signals), states);
+    }
+    known += count;
+    states += count;
+  }
+}
+
+double stored_in_group(const model::Model& model, std::size_t group,
+                       const std::vector<BodyMotion>& motions, double t,
+                       const Circumstances& around) {
+  const ContactGroup* const own = model.contact_groups[group].get();
+  double out = 0.0;
+  for_near_pairs(model, motions, around.memory, [&](const PairAt& at, const double* states) {
+    if (&at.group != own) return;
+    out += at.contact.respond(at.sight(t, states, signals_of(around))).stored_energy;
+  });
+  return out;
 }
 
 namespace {
@@ -321,7 +349,7 @@ GroupReading read_group(const model::Model& model, std::size_t group,
   if (own->rigid) return read_rigid_group(model, group, motions, t, around);
   for_near_pairs(model, motions, around.memory, [&](const PairAt& at, const double* states) {
     if (&at.group != own) return;
-    const loads::ContactReading one = at.contact.read(at.sight(t, states));
+    const loads::ContactReading one = at.contact.read(at.sight(t, states, signals_of(around)));
     out.normal += one.normal;
     out.friction += one.friction;
     out.touching += one.gap < 0.0 ? 1 : 0;

@@ -33,9 +33,18 @@ void append_group_tangents(const model::Model& model, const std::vector<BodyMoti
 /// Finds near pairs and their states before the first step.
 void start_near(const model::Model& model, const std::vector<BodyMotion>& motions,
                 model::RowMemory& out);
+/// Where events have changed numbers of groups: what friction of elastic pairs holds follows at
+/// once.
+void restrain_near(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
+                   model::RowMemory& memory);
 /// The same at the end of a step. @param around with the memory at its start
 void advance_near(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                   const Circumstances& around, model::RowMemory& out);
+
+/// Energy that an elastic group stores [J].
+double stored_in_group(const model::Model& model, std::size_t group,
+                       const std::vector<BodyMotion>& motions, double t,
+                       const Circumstances& around);
 
 /// What the contacts of one group do at one instant.
 struct GroupReading {

@@ -25,6 +25,7 @@ struct ContactForceSpec {
   std::optional<double> dynamic;      ///< of friction while it slides
   std::optional<double> stribeck;     ///< [m/s]
   std::optional<double> tangential;   ///< stiffness of sticking [N/m]
+  ContactSettings settings;           ///< of what events change, as the model is built
 
  protected:
   /// @param without what follows where neither a stiffness nor moduli are given
@@ -109,7 +110,6 @@ struct ContactSpec : ContactForceSpec {
   std::array<ShapeSpec, 2> shapes;
   std::optional<std::array<double, 2>> modulus;  ///< [Pa]
   std::optional<std::array<double, 2>> poisson;
-  ContactSettings settings;  ///< of what events change, as the model is built
 
   template <class Visitor>
   void fields(Visitor& visit) {

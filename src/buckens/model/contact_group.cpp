@@ -22,7 +22,7 @@ std::pair<std::size_t, std::size_t> ContactGroup::ordered(std::size_t i, std::si
 loads::Contact ContactGroup::contact(std::size_t first, std::size_t second) const {
   const loads::ContactPair pair(members[first].shape, members[second].shape);
   const double inertia = 1.0 / (members[first].inverse_mass + members[second].inverse_mass);
-  return {pair, loads::contact_data(law, pair, inertia, gravity)};
+  return {pair, loads::contact_data(law, pair, inertia, gravity), settings};
 }
 
 }  // namespace buckens::model

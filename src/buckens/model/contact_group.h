@@ -28,7 +28,7 @@ struct RigidPairLaw {
   double static_coefficient = 0;
   double dynamic_coefficient = 0;
   double stribeck_speed = 0;
-  loads::ContactSettings settings;  ///< of single contacts
+  loads::ContactSettings settings;
 };
 
 /// Many bodies that touch each other by one law.
@@ -37,6 +37,7 @@ struct ContactGroup {
   std::vector<ContactMember> members;
   loads::ElasticContactLaw law;
   std::optional<RigidPairLaw> rigid;  ///< in place of `law`
+  loads::ContactSettings settings;    ///< of `law`
   double gravity = 0;                 ///< [m/s²]
   bool has_two_lists = false;
   /// Bodies that a joint connects, the lower number first; ascending.

@@ -12,6 +12,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/circumstances.h"
 #include "buckens/dynamics/constraints.h"
+#include "buckens/dynamics/contact_groups.h"
 #include "buckens/dynamics/energy.h"
 #include "buckens/dynamics/signals.h"
 #include "buckens/dynamics/travel.h"
@@ -119,6 +120,7 @@ void EventActions::set_signals(const model::EventSpec& event, model::State& stat
 void EventActions::strain_contacts(model::State& state) const {
   const model::Model& model = built_.model;
   const auto motions = dynamics::motions_of(model, state);
+  dynamics::restrain_near(model, motions, state.t, state.memory);
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const model::Load& load = model.loads[k];
     const auto* contact = dynamic_cast<const loads::Contact*>(load.element.get());

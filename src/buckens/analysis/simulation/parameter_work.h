@@ -39,13 +39,15 @@ class ParameterWork {
   void visit_saved(const base::SaveVisit& visit);
 
  private:
-  /// Energy of a load in the position of one state with the signals of another instant.
-  double stored(std::size_t load, const model::State& at,
+  /// Energy of the load of a share in the position of one state with the signals of another
+  /// instant.
+  double stored(std::size_t share, const model::State& at,
                 const std::vector<dynamics::BodyMotion>& motions, double t,
                 const std::vector<double>& signals) const;
 
   const model::Model& model_;
   std::vector<Share> shares_;
+  std::vector<int> groups_;     ///< contact group that the load of a share is, −1: none
   std::vector<double> stored_;  ///< of each at the last state [J]
   dynamics::SignalValues end_;
 };

@@ -171,7 +171,6 @@ class ContactBuilder {
 
   void set_rigid(const loads::ContactPair& pair) {
     RigidPairLaw law = rigid_pair_law(spec_);
-    law.settings = spec_.settings;
     Load like = load_;
     like.shapes = nullptr;  // drawn once
     for (RigidContactRow& row : rigid_contact_rows(like, touches(pair), law, size_)) {

@@ -47,6 +47,7 @@ class GroupBuilder {
     group_->gravity = find_.model().gravity.norm();
     if (spec_.stiffness || spec_.modulus) {
       group_->law = loads::elastic_law(spec_);
+      group_->settings = spec_.settings;
     } else {
       group_->rigid = rigid_pair_law(spec_);
     }

@@ -65,6 +65,7 @@ RigidPairLaw rigid_pair_law(const loads::ContactForceSpec& spec) {
   out.static_coefficient = spec.coefficient;
   out.dynamic_coefficient = spec.dynamic.value_or(spec.coefficient);
   out.stribeck_speed = spec.stribeck.value_or(0.0);
+  out.settings = spec.settings;
   return out;
 }
 

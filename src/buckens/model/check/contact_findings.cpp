@@ -94,7 +94,7 @@ Found rigid_problem(const loads::ContactForceSpec& spec) {
   return std::nullopt;
 }
 
-Found restitution_problem(const loads::ContactForceSpec& spec) {
+Found too_much_restitution_problem(const loads::ContactForceSpec& spec) {
   if (spec.restitution.value_or(0.0) <= 1.0) return std::nullopt;
   return Finding{"restitution", fmt::format("expected 0 to 1, found {:g}: no rebound is "
                                             "faster than the approach",
@@ -219,7 +219,7 @@ Found own_joint_problem(const loads::ContactSpec& spec, const ModelDescription& 
     if (Found found = direction_problem(shape)) return found;
   }
   if (Found found = pair_problem(spec)) return found;
-  if (Found found = restitution_problem(spec)) return found;
+  if (Found found = too_much_restitution_problem(spec)) return found;
   if (!spec.stiffness && !spec.modulus) {
     if (Found found = rigid_problem(spec)) return found;
   }
@@ -257,10 +257,15 @@ Found own_joint_problem(const loads::ContactsSpec& spec, const ModelDescription&
                    "by `modulus` the exponent is 1.5; remove `exponent`, or give a `stiffness` in "
                    "place of `modulus`"};
   }
-  if (Found found = restitution_problem(spec)) return found;
+  if (Found found = too_much_restitution_problem(spec)) return found;
   const bool is_rigid = !spec.stiffness && !spec.modulus;
   if (Found found = is_rigid ? rigid_problem(spec) : elastic_loss_problem(spec)) return found;
   return contact_friction_problem(spec);
+}
+
+Found restitution_problem(const loads::ContactForceSpec& spec, bool is_elastic) {
+  if (Found found = too_much_restitution_problem(spec)) return found;
+  return is_elastic ? elastic_loss_problem(spec) : std::nullopt;
 }
 
 Found own_joint_problem(const ContactSensor& spec, const ModelDescription& model) {

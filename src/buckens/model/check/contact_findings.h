@@ -10,6 +10,8 @@ namespace buckens::model {
 Found own_joint_problem(const loads::ContactSpec& spec, const ModelDescription& model);
 /// What is wrong with contacts of many bodies.
 Found own_joint_problem(const loads::ContactsSpec& spec, const ModelDescription& model);
+/// What is wrong with the restitution of contacts.
+Found restitution_problem(const loads::ContactForceSpec& spec, bool is_elastic);
 /// Whether the contact that a sensor names exists.
 Found own_joint_problem(const ContactSensor& spec, const ModelDescription& model);
 

@@ -26,7 +26,8 @@ struct Parameter {
   int* setting = nullptr;          ///< of numbers: where the place of their setting is kept
   std::optional<double> number = {};
   const char* needs = "a number";  ///< where it is not given
-  loads::ContactSpec* contact = nullptr;
+  loads::ContactForceSpec* contact = nullptr;
+  bool is_elastic = false;  ///< the contact
 
   bool is_given() const { return law != nullptr || number.has_value(); }
 };
@@ -44,16 +45,16 @@ void collect(const std::string& path, const base::Member& kind, std::vector<Para
   }
 }
 
-/// Adds those of a contact of two bodies, which are numbers.
-void collect_contact(const std::string& path, const base::Member& kind, loads::ContactSpec& spec,
-                     std::vector<Parameter>& out) {
+/// Adds those of contacts, which are numbers.
+void collect_contact(const std::string& path, const base::Member& kind,
+                     loads::ContactForceSpec& spec, bool is_elastic, std::vector<Parameter>& out) {
   loads::ContactSettings& at = spec.settings;
   std::vector<Parameter> known;
   const auto add = [&](const char* key, std::optional<double> number, int& setting,
                        const char* needs = "a number") {
-    known.push_back({key, {}, nullptr, &setting, number, needs, &spec});
+    known.push_back({key, {}, nullptr, &setting, number, needs, &spec, is_elastic});
   };
-  if (spec.stiffness || spec.modulus) {
+  if (is_elastic) {
     add("stiffness", spec.stiffness, at.stiffness);
     add("damping", spec.damping, at.damping);
   }
@@ -82,7 +83,13 @@ std::vector<Parameter> parameters_of(const base::Member& model) {
     const base::Member kind = kind_member(load);
     const std::string path = "loads." + *load.type->name(load.at);
     collect(path, kind, out);
-    if (auto* contact = kind.get<loads::ContactSpec>()) collect_contact(path, kind, *contact, out);
+    const auto add_contact = [&](auto* contact) {
+      if (contact == nullptr) return;
+      const bool is_elastic = contact->stiffness || contact->modulus;
+      collect_contact(path, kind, *contact, is_elastic, out);
+    };
+    add_contact(kind.get<loads::ContactSpec>());
+    add_contact(kind.get<loads::ContactsSpec>());
   }
   for (const base::Member& joint : field_member(model, "joints").parts()) {
     const base::Member kind = kind_member(joint);
@@ -92,26 +99,11 @@ std::vector<Parameter> parameters_of(const base::Member& model) {
   return out;
 }
 
-/// Whether a path leads to contacts among many bodies.
-bool is_of_many(const std::string& path, const ModelDescription& model) {
-  return std::any_of(model.loads.begin(), model.loads.end(), [&](const loads::LoadSpec& load) {
-    return std::holds_alternative<loads::ContactsSpec>(load.kind) &&
-           path.starts_with("loads." + load.name + ".");
-  });
-}
-
-std::string unknown_text(const std::string& path, const std::vector<Parameter>& known,
-                         const ModelDescription& model) {
+std::string unknown_text(const std::string& path, const std::vector<Parameter>& known) {
   if (path.starts_with("gravity.")) {
     return fmt::format(
         "events cannot change \"{}\" by itself; change all of it, gravity: [0, "
         "-1.62 m/s^2, 0]",
-        path);
-  }
-  if (is_of_many(path, model)) {
-    return fmt::format(
-        "events cannot change \"{}\": contacts among many bodies stay as they are; "
-        "name the pairs that change one by one as `contact`",
         path);
   }
   std::vector<std::string> names, beside;
@@ -122,7 +114,7 @@ std::string unknown_text(const std::string& path, const std::vector<Parameter>& 
   }
   constexpr const char* kWhat =
       "events change numbers of springs and dampers, of friction in joints, motors and brakes, of "
-      "contacts of two bodies, the factors of bushings, and gravity";
+      "contacts, the factors of bushings, and gravity";
   if (!beside.empty()) {
     return fmt::format("events cannot change \"{}\"; here they can change {}", path,
                        fmt::join(beside, ", "));
@@ -155,12 +147,11 @@ Found gravity_problem(const SettingChange& change, const ModelDescription& model
 }
 
 /// What a contact with this restitution would be refused for.
-Found changed_restitution_problem(const Parameter& parameter, double value,
-                                  const ModelDescription& model) {
+Found changed_restitution_problem(const Parameter& parameter, double value) {
   if (parameter.setting != &parameter.contact->settings.restitution) return std::nullopt;
-  loads::ContactSpec changed = *parameter.contact;
+  loads::ContactForceSpec changed = *parameter.contact;
   changed.restitution = value;
-  return own_joint_problem(changed, model);
+  return restitution_problem(changed, parameter.is_elastic);
 }
 
 }  // namespace
@@ -173,7 +164,7 @@ Found parameter_problem(const SettingChange& change, const ModelDescription& mod
   for (const Parameter& one : known) {
     if (one.path == change.name) found = &one;
   }
-  if (found == nullptr) return Finding{"set", unknown_text(change.name, known, model)};
+  if (found == nullptr) return Finding{"set", unknown_text(change.name, known)};
   if (!found->is_given()) {
     return Finding{"set", fmt::format("\"{}\" is not given in the model; give it {} there, "
                                       "which holds until the event",
@@ -192,7 +183,7 @@ Found parameter_problem(const SettingChange& change, const ModelDescription& mod
     return Finding{path, refusal(fmt::format("{:g}", *number), *rule)};
   }
   if (found->contact == nullptr) return std::nullopt;
-  const Found wrong = changed_restitution_problem(*found, *number, model);
+  const Found wrong = changed_restitution_problem(*found, *number);
   return wrong ? Found(Finding{path, wrong->text}) : std::nullopt;
 }
 

@@ -78,7 +78,7 @@ struct EventSpec {
                       "`note` the time in the summary of the run, or note it and `stop`"));
     visit(base::field("set", changes,
                       "new values of signals with a `setting`, of parameters of springs, dampers, "
-                      "friction in joints, motors, brakes and contacts of two bodies, and of "
+                      "friction in joints, motors, brakes and contacts, and of "
                       "`gravity`")
               .like("{target: 0.5, gain: \"2*gain\", loads.damper.damping: 20 N s/m, gravity: "
                     "[0, 0, -1.62 m/s^2]}"));
