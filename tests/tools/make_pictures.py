@@ -56,6 +56,7 @@ PICTURES = (
     Picture("belt_drive", (("run", "examples/belt_drive/belt_drive.yaml"),), time=0.6),
     Picture("block_and_tackle", (("run", "examples/block_and_tackle/block_and_tackle.yaml"),), time=0.6),
     Picture("marble_bowl", (("run", "examples/marble_bowl/marble_bowl.yaml"),), time=0.35),
+    Picture("balls_in_tray", (("run", "examples/balls_in_tray/balls_in_tray.yaml"),), time=0.65),
     Picture("windscreen_wiper", (("run", "examples/windscreen_wiper/windscreen_wiper.yaml"),), time=0.4),
     Picture("cam_follower", (("run", "examples/cam_follower/cam_follower.yaml"),), time=0.4),
     Picture("robot_arm", (("run", "examples/robot_arm/robot_arm.yaml"),), time=0.3),
