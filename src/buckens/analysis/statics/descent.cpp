@@ -308,12 +308,13 @@ bool StaticDescent::goes_to_and_fro(double residual, double size) {
     without_gain_ = 0;
     way_without_gain_ = 0.0;
     best_ = point_.poses;
+    best_turned_ = turned_;
   }
   way_without_gain_ += size;
   if (++without_gain_ <= kLongWithoutGain) return false;
   double away = 0.0;
   for (std::size_t b = 0; b < best_.size(); ++b) {
-    const double turned = spatial::log_rotation(best_[b].q.conjugate() * point_.poses[b].q).norm();
+    const double turned = (turned_[b] - best_turned_[b]).norm();  // more turns are further
     away = std::max({away, turned, (point_.poses[b].p - best_[b].p).norm() / model_.length});
   }
   return away < kAway * way_without_gain_;

@@ -92,6 +92,7 @@ class StaticDescent {
   int without_gain_ = 0;              // iterations since it has fallen
   double way_without_gain_ = 0;       // sum of the steps since then
   std::vector<spatial::Pose> best_;   // where it was
+  std::vector<Eigen::Vector3d> best_turned_;
   int row_choices_ = 0;
   std::string lost_text_;  // of rows that found no end in the last step; empty: they did
 };
