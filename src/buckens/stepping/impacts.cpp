@@ -274,10 +274,13 @@ bool Impacts::look(std::size_t index, const dynamics::Circumstances& around,
   const bool is_closed = sight.stand.regime != 0;
   if (is_closed) contact.regime = sight.stand.regime;
   const double sign = contact.sign;
+  if (!is_closed && !(contact.gap < 0.0)) return false;
   // What lies there already is out of place by rounding, and approaches by as little.
   const bool is_length =
       !model_.coordinates[static_cast<std::size_t>(load.coordinate)].law.is_angle();
-  if (!is_closed && !(contact.gap < -kNoGap * (is_length ? length_ : 1.0))) return false;
+  const double rounding = kNoGap * (is_length ? length_ : 1.0);
+  const double way = std::min(contact.gap, scheme_.h * sign * sight.coordinate.rate);
+  if (!is_closed && way >= -rounding) return false;
   const bool strikes = !is_closed && sign * sight.coordinate.rate < 0.0;
   Touch touch;
   touch.law = index;

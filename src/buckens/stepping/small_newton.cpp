@@ -29,8 +29,9 @@ constexpr double kPivotDrop = 1e-3;
 // centre.
 constexpr double kDeadCentre = 1e-10;
 
-// Iterations that do not settle, after which a place is looked for that jumps to and fro.
-constexpr int kJumping = 30;
+// Iterations between which rows move without ever settling, after which a place is looked for that
+// jumps to and fro.
+constexpr int kMostUnsettled = 100;
 
 /// Calls f for the rows that are not in use. @param rows_in_use ascending
 template <class F>
@@ -438,10 +439,12 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
         flickers > 1 ||
         (are_formed && ending_.is_settled(change, before, condensation_->pivot_ratio()));
     since_settled = is_settled ? 0 : since_settled + 1;
-    if (is_settled || is_restless(since_moved)) {
-      bool has_moved = is_settled ? move_rigid_rows(t, report) : decide_cones(t, report);
-      if (!is_settled && since_settled % kJumping == 0)
-        has_moved = let_jumping_go(change.size) || has_moved;
+    const bool is_failing = !is_settled && (since_moved + 1 >= settings_.max_newton ||
+                                            since_settled % kMostUnsettled == 0);
+    if (is_settled || is_failing || is_restless(since_moved)) {
+      const bool has_moved =
+          is_settled ? move_rigid_rows(t, report)
+                     : (is_failing && let_jumping_go(change.size)) || decide_cones(t, report);
       if (is_settled && !has_moved) break;
       if (has_moved) {
         since_moved = 0;

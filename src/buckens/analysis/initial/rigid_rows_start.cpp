@@ -69,17 +69,6 @@ linalg::Vector accelerations_of(const model::Model& model, const model::State& s
   return out;
 }
 
-/// Whether forces would move bodies within a step by more than they move already. Where friction
-/// nearly jams, forces of an instant grow without bound, while the way within it is nothing.
-bool are_sudden(const model::Model& model, const model::State& state) {
-  double speed = model.gravity.norm() * state.last_step;
-  for (const model::BodyState& body : state.bodies) {
-    speed = std::max({speed, body.frame.v.cwiseAbs().maxCoeff(),
-                      model.length * body.frame.w.cwiseAbs().maxCoeff()});
-  }
-  return accelerations_of(model, state).cwiseAbs().maxCoeff() * state.last_step > speed;
-}
-
 /// Share of the change of forces in a round that the next one takes over. Where friction takes much
 /// of what presses, whole changes go to and fro ever further.
 double share_of(int round) {
@@ -203,7 +192,7 @@ void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& me
       state = start;
       is_settled = settle_in_rounds(model, metric, rows_in_use, &contacts, state, unrest);
     }
-    if (is_settled && !are_sudden(model, state)) return;
+    if (is_settled && !contacts.are_sudden(state)) return;
     if (start.last_step > 0.0) {
       state = start;
       contacts.hold_over(start.last_step, state);

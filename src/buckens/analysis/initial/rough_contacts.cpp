@@ -67,6 +67,25 @@ void RoughContacts::hold_over(double span, model::State& state) {
   settle_accelerations(model_, metric_, rows_in_use_, state, cones_.rows());
 }
 
+bool RoughContacts::are_sudden(const model::State& state) const {
+  constexpr double kByWeight = 5.0;
+  dynamics::Forces forces;
+  dynamics::evaluate_forces(model_, dynamics::motions_of(model_, state), state.t,
+                            dynamics::circumstances_of(state), forces);
+  double speed = 0.0, change = 0.0;
+  for (const model::Load& load : model_.loads) {
+    if (load.rigid_row < 0 || !owns(load.rigid_row)) continue;
+    if (state.memory.laws[load.first_state] == 0.0) continue;
+    speed = std::max(speed, std::abs(forces.rigid[static_cast<std::size_t>(load.rigid_row)].slip));
+  }
+  for (std::size_t b = 0; b < state.bodies.size(); ++b) {
+    const model::BodyState& body = state.bodies[b];
+    const double turning = model_.bodies[b].length_scale() * body.w_dot.norm();
+    change = std::max({change, body.v_dot.norm(), turning});
+  }
+  return (change - kByWeight * model_.gravity.norm()) * state.last_step > speed;
+}
+
 void RoughContacts::foresee(const std::vector<dynamics::BodyMotion>& motions,
                             const model::State& state, double span,
                             std::vector<loads::RigidRow>& rows) const {
