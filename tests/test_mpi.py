@@ -144,7 +144,7 @@ LARGE = {
     # C is no sum of M and K: each step multiplies by C, too.
     "held damping": ("bodies.cube.interfaces.bearing.kind=rigid", "materials.steel.damping={ratio: 2 %, at: [100 Hz, 20 kHz]}"),
     # Each length of step has a factor of its own, for which M and K come together again.
-    "steps of its own": ("simulation.step=auto", "simulation.tolerance=1e-4"),
+    "steps of its own": ("simulation.step=auto", "simulation.tolerance=1e-4", "simulation.duration=0.1 ms", "output.every=0.05 ms"),
 }
 
 
@@ -160,6 +160,8 @@ def test_a_large_body_of_another_kind(buckens, mpirun, tmp_path, name):
     assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < limit
     if name != "iterative":
         expect_same_energies(tmp_path / "two", tmp_path / "one")
+    factors = json.loads((tmp_path / "two" / "summary.json").read_text())["bodies"]["cube"]["factorisations"]
+    assert factors == {"iterative": 0, "steps of its own": 2}.get(name, 1)
 
 
 TWINS = CUBE.replace("joints:", "  other:\n    like: cube\n    at: {position: [0.2, -0.05, -0.05]}\njoints:").replace(
