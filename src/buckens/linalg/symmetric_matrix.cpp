@@ -93,6 +93,11 @@ void SymmetricMatrix::multiply(const double* x, double* y) const {
   DividedMatrix::multiply({&product, 1});
 }
 
+Matrix weighted_product(double weight, const SymmetricMatrix& A, const Matrix& X) {
+  if (A.is_divided()) return weight * Matrix(A * X);
+  return weight * (A.whole() * X);
+}
+
 void multiply(std::initializer_list<MatrixProduct> products) {
   std::vector<DividedMatrix::Product> elsewhere;
   for (const MatrixProduct& product : products) {

@@ -86,6 +86,10 @@ class SymmetricMatrix {
   mutable std::shared_ptr<const DividedMatrix> divided_;
 };
 
+/// w A X. In a process by itself it has the bits of Eigen's `w * (A * X)`, which are those of (w A)
+/// X.
+Matrix weighted_product(double weight, const SymmetricMatrix& A, const Matrix& X);
+
 /// y = A x, of vectors of its length.
 struct MatrixProduct {
   const SymmetricMatrix* A;

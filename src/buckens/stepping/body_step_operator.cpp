@@ -168,8 +168,10 @@ std::shared_ptr<const BodyResponses> BodyStepOperator::make_responses(
   // The strain answers the corrected position, the inertia does not: FM (37) with x⁺ shifted by
   // G e leaves Y K̂⁻¹ (m M + c C) G e.
   const Matrix interface = out->G.leftCols(part_->num_interface_rows);
-  Matrix inertia = scheme_.mass * (part_->fe.M * interface);
-  if (part_->is_damped()) inertia += scheme_.damping * (part_->C * interface);
+  Matrix inertia = linalg::weighted_product(scheme_.mass, part_->fe.M, interface);
+  if (part_->is_damped()) {
+    inertia += linalg::weighted_product(scheme_.damping, part_->C, interface);
+  }
   solve_columns(inertia);
   out->D_less_G = inertia - interface;
   return out;

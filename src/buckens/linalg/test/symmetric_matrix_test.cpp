@@ -22,6 +22,8 @@ TEST(SymmetricMatrix, ProductsHaveTheBitsOfThoseOfASparseMatrix) {
   const Matrix AX = A * X;
   EXPECT_EQ(Vector(wrapped * x), Ax);
   EXPECT_EQ(Matrix(wrapped * X), AX);
+  const Matrix weighted = 0.3 * (A * X);
+  EXPECT_EQ(weighted_product(0.3, wrapped, X), weighted);
   EXPECT_EQ(Vector(wrapped * (2.0 * x)), Vector(A * (2.0 * x)));
   Vector found, second;
   multiply({{&wrapped, &x, &found}, {&other, &y, &second}});
