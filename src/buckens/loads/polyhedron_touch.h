@@ -33,6 +33,9 @@ TouchFinders edges_across(const std::shared_ptr<const Polyhedron>& first,
 /// The surface of a mesh, or the six faces of a box.
 std::shared_ptr<const Polyhedron> polyhedron_of(const ContactShape& shape);
 
+/// All places of two boxes of a planar model: corners of either at sides of the other.
+TouchFinders flat_box_touches(const ContactShape& first, const ContactShape& second);
+
 /// All places of two surfaces of triangles.
 TouchFinders polyhedron_touches(const std::shared_ptr<const Polyhedron>& first,
                                 const std::shared_ptr<const Polyhedron>& second);

@@ -3,7 +3,6 @@
 
 #include <atomic>
 
-#include "buckens/spatial/flat_box_touch.h"
 #include "buckens/spatial/last_looks.h"
 #include "buckens/spatial/rim_touch.h"
 
@@ -70,9 +69,6 @@ void RigidTouch::look_anew(const MarkerMotion& F, const MarkerMotion& M, TouchPl
           {Vector3d::Zero(), data_.surface.half_length * data_.surface.axis, data_.surface.radius},
           F, {Vector3d::Zero(), data_.half_length * data_.axis, data_.radius}, M, F.R * data_.pole,
           out);
-      break;
-    case Feature::flat_boxes:
-      look_at_flat_boxes(data_.surface, data_.second, data_.direction, F, M, out);
       break;
     case Feature::found:
       data_.finder->look(F, M, out);

@@ -51,14 +51,11 @@ class RigidTouch {
     point_of_first,   ///< a sphere or a point of F at the surface of M
     rim,              ///< the lowest point of a rim of M on the plane of F; it moves along the rim
     axes,             ///< the nearest places of two capsules
-    flat_boxes,       ///< spatial/flat_box_touch.h
     found             ///< by a finder
   };
   struct Data {
     Feature feature = Feature::point_of_second;
     TouchSurface surface;  ///< of F; with point_of_first: of M
-    TouchSurface second;   ///< of M, a flat box
-    int direction = 0;     ///< of two flat boxes
     /// Unit vector in F: normal as placed.
     Eigen::Vector3d pole = Eigen::Vector3d::UnitZ();
     double radius = 0;  ///< of the sphere, the rim or the second capsule [m]

@@ -85,18 +85,6 @@ std::vector<RigidTouch::Data> touches(const spatial::MarkerMotion& F,
       out.push_back(data);
     }
   }
-  // Boxes that are about as large as they are far from each other.
-  data.feature = Feature::flat_boxes;
-  data.surface = data.second = surface(TouchSurface::Kind::box);
-  data.surface.flat = data.second.flat = 2;
-  for (const Vector3d& half :
-       {Vector3d(0.5, 0.4, 0.3), Vector3d(2.0, 1.5, 0.3), Vector3d(0.1, 0.2, 2.0)}) {
-    for (const Vector3d& other : {Vector3d(0.5, 0.4, 0.3), Vector3d(0.2, 2.5, 1.7)}) {
-      data.surface.half = half;
-      data.second.half = other;
-      for (data.direction = 0; data.direction < 2; ++data.direction) out.push_back(data);
-    }
-  }
   return out;
 }
 

@@ -4,12 +4,14 @@
 #include "buckens/loads/polyhedron_touch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "buckens/loads/shape_distance.h"
 #include "buckens/loads/test/triangle_ball.h"
 #include "buckens/loads/test/triangle_block.h"
 #include "buckens/spatial/box_separation.h"
@@ -357,6 +359,82 @@ TEST(PolyhedronTouch, ACornerDoesNotTouchAFaceIntoWhichItsEdgesLead) {
       EXPECT_NEAR(place.gap, -0.001, 1e-12) << beside;
     }
   }
+}
+
+ContactShape flat_box(const Vector3d& half) {
+  ContactShape out;
+  out.kind = ContactShape::Kind::box;
+  out.half = half;
+  out.flat = 2;
+  return out;
+}
+
+/// From where to where flat boxes touch without gap, along the side y of the first.
+std::array<double, 2> line_shared(const Vector3d& under, const Vector3d& over,
+                                  const Vector3d& shift, double turn) {
+  MarkerMotion F, M;
+  F.R = spatial::exp_rotation({0, 0, 0.7}).toRotationMatrix();
+  M.p = F.R * shift;
+  M.R = F.R * spatial::exp_rotation({0, 0, turn}).toRotationMatrix();
+  std::array<double, 2> out = {HUGE_VAL, -HUGE_VAL};
+  for (const auto& finder : flat_box_touches(flat_box(under), flat_box(over))) {
+    TouchPlace place;
+    finder->look(F, M, place);
+    if (!place.touches || std::abs(place.gap) > 1e-12) continue;
+    EXPECT_NEAR((F.R.transpose() * place.normal - Vector3d::UnitY()).norm(), 0, 1e-12);
+    const Vector3d at = F.R.transpose() * place.place;
+    EXPECT_NEAR(at.y(), under.y(), 1e-12);
+    EXPECT_NEAR(at.z(), 0, 1e-12);
+    out = {std::min(out[0], at.x()), std::max(out[1], at.x())};
+  }
+  return out;
+}
+
+TEST(FlatBoxTouch, BoxesTouchAtBothEndsOfTheLineThatTheyShare) {
+  const Vector3d half(0.3, 0.2, 1), small(0.1, 0.2, 0.01);
+  const auto expect_line = [](const std::array<double, 2>& found, double from, double to) {
+    EXPECT_NEAR(found[0], from, 1e-12);
+    EXPECT_NEAR(found[1], to, 1e-12);
+  };
+  expect_line(line_shared(half, half, {0, 0.4, 0}, 0), -0.3, 0.3);
+  expect_line(line_shared(half, half, {0.4, 0.4, 0}, 0), 0.1, 0.3);
+  expect_line(line_shared(half, small, {0.1, 0.4, 0}, 0), 0, 0.2);
+  expect_line(line_shared(small, half, {0.1, 0.4, 0}, 0), -0.1, 0.1);
+  expect_line(line_shared(half, {0.2, 0.1, 1}, {0, 0.4, 0}, 0.5 * M_PI), -0.1, 0.1);
+}
+
+TEST(FlatBoxTouch, TheGapIsThatOfTheSeparation) {
+  // Apart or up to a twentieth of the smaller one into each other: along the axis of least overlap.
+  std::mt19937 chance(3);
+  std::uniform_real_distribution<double> any(-1, 1);
+  int count = 0, beside = 0;
+  for (int k = 0; k < 5000; ++k) {
+    const ContactShape one = flat_box({0.3 + 0.2 * any(chance), 0.3, 1});
+    const ContactShape other = flat_box({0.2, 0.3 + 0.2 * any(chance), 0.5});
+    MarkerMotion F, M;
+    M.p = Vector3d(any(chance), any(chance), 0);
+    M.R = spatial::exp_rotation({0, 0, 3 * any(chance)}).toRotationMatrix();
+    const auto apart =
+        spatial::BoxSeparation::of(touch_surface(one), F.R, touch_surface(other), M.R, M.p);
+    if (std::abs(apart.gap) > 0.01) continue;
+    double least = HUGE_VAL;
+    for (const auto& finder : flat_box_touches(one, other)) {
+      TouchPlace place;
+      finder->look(F, M, place);
+      if (place.touches) least = std::min(least, place.gap);
+    }
+    // Corner at corner, neither of which lies over a side, has a gap, but no place.
+    if (apart.gap > 0.0) {
+      EXPECT_GE(least, apart.gap - 1e-12);
+      continue;
+    }
+    // No overlap is missed. Where a corner came in beside another corner, its own side says more.
+    EXPECT_LE(least, apart.gap + 1e-12);
+    ++count;
+    beside += least < apart.gap - 1e-12 ? 1 : 0;
+  }
+  EXPECT_GT(count, 10);
+  EXPECT_LT(beside, count / 3);
 }
 
 /// Whether a finder goes over to another feature within the differences.

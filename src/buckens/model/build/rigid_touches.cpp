@@ -60,7 +60,7 @@ class TouchList {
     if (first_.kind == ShapeKind::capsule && second_.kind == ShapeKind::capsule) {
       add_capsules();
     } else if (first_.kind == ShapeKind::box && second_.kind == ShapeKind::box && out_of_plane_) {
-      add_flat_boxes();
+      add_found(loads::flat_box_touches(first_, second_));
     } else if (second_.kind == ShapeKind::capsule && first_.kind == ShapeKind::box) {
       add_capsule_on_box();
     } else if (second_.kind == ShapeKind::capsule && first_.kind == ShapeKind::cylinder) {
@@ -113,14 +113,6 @@ class TouchList {
     data.axis = second_.axis;
     data.half_length = second_.half_length;
     add(data, {Vector3d::Zero()});
-  }
-
-  void add_flat_boxes() {
-    RigidTouch::Data data;
-    data.feature = Feature::flat_boxes;
-    data.surface = loads::touch_surface(first_);
-    data.second = loads::touch_surface(second_);
-    for (data.direction = 0; data.direction < 2; ++data.direction) add(data, {Vector3d::Zero()});
   }
 
   void add_capsule_on_box() {

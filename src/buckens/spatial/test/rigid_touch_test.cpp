@@ -12,7 +12,6 @@
 
 #include <gtest/gtest.h>
 
-#include "buckens/spatial/flat_box_touch.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::spatial {
@@ -75,54 +74,6 @@ TEST(TouchSurface, DistancesAreTheSmallest) {
       EXPECT_NEAR(shape.look(point - view.distance * view.normal).distance, 0, 1e-14);
     }
   }
-}
-
-/// Both places of two flat boxes, in the axes of the first.
-std::array<Vector3d, 2> flat_places(const Vector3d& under, const Vector3d& over,
-                                    const Vector3d& shift, double turn, double gap) {
-  TouchSurface first = surface(Kind::box), second = first;
-  first.half = under;
-  second.half = over;
-  first.flat = second.flat = 2;
-  MarkerMotion F, M;
-  F.R = exp_rotation({0, 0, 0.7}).toRotationMatrix();
-  M.p = F.R * shift;
-  M.R = F.R * exp_rotation({0, 0, turn}).toRotationMatrix();
-  std::array<Vector3d, 2> out;
-  for (int k = 0; k < 2; ++k) {
-    TouchPlace place;
-    look_at_flat_boxes(first, second, k, F, M, place);
-    EXPECT_NEAR(place.gap, gap, 1e-14);
-    EXPECT_NEAR((F.R.transpose() * place.normal - Vector3d::UnitY()).norm(), 0, 1e-14);
-    out[static_cast<std::size_t>(k)] = F.R.transpose() * place.place;
-  }
-  if (out[0].x() < out[1].x()) std::swap(out[0], out[1]);
-  return out;
-}
-
-TEST(FlatBoxTouch, BoxesTouchAtBothEndsOfTheLineThatTheyShare) {
-  const Vector3d half(0.3, 0.2, 1), small(0.1, 0.2, 1);
-  const auto expect_line = [](const std::array<Vector3d, 2>& found, double from, double to) {
-    EXPECT_NEAR((found[0] - Vector3d(to, 0.2, 0)).norm(), 0, 1e-14);
-    EXPECT_NEAR((found[1] - Vector3d(from, 0.2, 0)).norm(), 0, 1e-14);
-  };
-  expect_line(flat_places(half, half, {0, 0.4, 0}, 0, 0), -0.3, 0.3);
-  expect_line(flat_places(half, half, {0.4, 0.4, 0}, 0, 0), 0.1, 0.3);
-  expect_line(flat_places(half, small, {0.1, 0.4, 0}, 0, 0), 0, 0.2);
-  expect_line(flat_places(small, half, {0.1, 0.4, 0}, 0, 0), -0.1, 0.1);
-  expect_line(flat_places(half, {0.2, 0.1, 1}, {0, 0.4, 0}, 0.5 * M_PI, 0), -0.1, 0.1);
-  // On one corner, which is its lowest point.
-  const double low = 0.1 * std::sin(0.3) + 0.2 * std::cos(0.3);
-  TouchSurface first = surface(Kind::box), second = first;
-  first.flat = second.flat = 2;
-  first.half = half;
-  second.half = small;
-  MarkerMotion F, M;
-  M.p = {0.05, 0.2 + low + 0.01, 0};
-  M.R = exp_rotation({0, 0, 0.3}).toRotationMatrix();
-  TouchPlace places[2];
-  for (int k = 0; k < 2; ++k) look_at_flat_boxes(first, second, k, F, M, places[k]);
-  EXPECT_NEAR(std::min(places[0].gap, places[1].gap), 0.01, 1e-14);
 }
 
 TEST(RigidTouch, TheLowestPointOfARimIsBelowAllOthers) {
