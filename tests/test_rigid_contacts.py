@@ -225,5 +225,5 @@ def test_bricks_and_planks_in_the_plane_keep_their_energy(sensors):
         "output: {every: 5 ms, sensors: {lost: {energy: dissipated}, moving: {energy: kinetic}, balance: {energy: balance}}}\n"
     )
     assert out["lost"][-1] > 1.5
-    # Blows that share a step have one instant: of first order in it, three hundredths here (theory 25 section 5).
+    # Blows that share a step have one instant: of first order in it, a twentieth of the loss here (theory 25 section 5).
     assert numpy.abs(out["balance"]).max() < 0.1 * out["lost"][-1]

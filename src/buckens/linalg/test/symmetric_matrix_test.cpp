@@ -2,6 +2,7 @@
 // In a process by itself; over several: tests/test_mpi.py.
 #include "buckens/linalg/symmetric_matrix.h"
 
+#include <cmath>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -54,7 +55,7 @@ TEST(SymmetricMatrix, IsEqualWhereAllBitsAre) {
   SparseMatrix changed = A;
   EXPECT_TRUE(A == SymmetricMatrix(changed));
   EXPECT_EQ(A.content(), SymmetricMatrix(changed).content());
-  changed.valuePtr()[7] *= 1.0 + 1e-15;
+  changed.valuePtr()[7] = std::nextafter(changed.valuePtr()[7], 1.0);
   EXPECT_FALSE(A == SymmetricMatrix(changed));
   EXPECT_NE(A.content(), SymmetricMatrix(changed).content());
   EXPECT_FALSE(A == SymmetricMatrix(matrices::grid(3, 0.3)));
