@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/linalg/symmetric_matrix.h"
 
-#include <algorithm>
 #include <vector>
 
 #include "buckens/linalg/content_hash.h"
 #include "buckens/linalg/divided_matrix.h"
+#include "buckens/linalg/same_bits.h"
 
 namespace buckens::linalg {
 
@@ -20,16 +20,6 @@ std::array<std::uint64_t, 2> content_of(const SparseMatrix& A) {
   add(A.innerIndexPtr(), A.nonZeros());
   add(A.outerIndexPtr(), A.outerSize() + 1);
   return hash.value();
-}
-
-bool have_same_bits(const SparseMatrix& A, const SparseMatrix& B) {
-  if (A.rows() != B.rows() || A.nonZeros() != B.nonZeros()) return false;
-  const auto same = [](const auto* a, const auto* b, Eigen::Index count) {
-    return std::equal(a, a + count, b);
-  };
-  return same(A.valuePtr(), B.valuePtr(), A.nonZeros()) &&
-         same(A.innerIndexPtr(), B.innerIndexPtr(), A.nonZeros()) &&
-         same(A.outerIndexPtr(), B.outerIndexPtr(), A.outerSize() + 1);
 }
 
 }  // namespace

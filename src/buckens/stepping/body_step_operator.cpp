@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/stepping/body_step_operator.h"
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "buckens/body/mesh_solver.h"
+#include "buckens/linalg/same_bits.h"
 
 namespace buckens::stepping {
 
@@ -63,17 +63,6 @@ bool have_one_matrix(const Scheme& a, const Scheme& b) {
   return a.mass == b.mass && a.damping == b.damping && a.stiffness == b.stiffness;
 }
 
-/// Equal to the last bit.
-bool are_equal(const InterfaceRows& A, const InterfaceRows& B) {
-  if (A.rows() != B.rows() || A.nonZeros() != B.nonZeros()) return false;
-  const auto same = [](const auto* a, const auto* b, Eigen::Index count) {
-    return std::equal(a, a + count, b);
-  };
-  return same(A.valuePtr(), B.valuePtr(), A.nonZeros()) &&
-         same(A.innerIndexPtr(), B.innerIndexPtr(), A.nonZeros()) &&
-         same(A.outerIndexPtr(), B.outerIndexPtr(), A.outerSize() + 1);
-}
-
 bool have_same_rigid_modes(const body::FlexiblePart& a, const body::FlexiblePart& b) {
   const Matrix& patterns = a.invariants.centrifugal_patterns();
   return a.sieve.Phi().cols() == b.sieve.Phi().cols() && a.sieve.Phi() == b.sieve.Phi() &&
@@ -94,7 +83,7 @@ bool BodyStepOperator::serves(const body::FlexiblePart& part) const {
       part.coupling.may_use_patterns() != part_->coupling.may_use_patterns()) {
     return false;
   }
-  return have_same_rigid_modes(part, *part_) && are_equal(rows_of(part), N_);
+  return have_same_rigid_modes(part, *part_) && linalg::have_same_bits(rows_of(part), N_);
 }
 
 BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme& scheme,

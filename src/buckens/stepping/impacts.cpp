@@ -11,12 +11,12 @@
 
 #include "buckens/dynamics/mass_metric.h"
 #include "buckens/dynamics/model_scales.h"
-#include "buckens/model/gear_flank.h"
 #include "buckens/spatial/rotation.h"
 #include "buckens/stepping/friction_impulses.h"
 #include "buckens/stepping/gap_of_step.h"
 #include "buckens/stepping/mesh_partners.h"
 #include "buckens/stepping/step_failure.h"
+#include "buckens/stepping/tooth_space.h"
 
 namespace buckens::stepping {
 
@@ -36,18 +36,6 @@ constexpr double kSamePlace = 0.1;
 
 // Overlaps by this share of the size of positions, or [rad], are rounding.
 constexpr double kNoGap = 1e-14;
-
-/// Flanks that pass half of a pitch in a step may be in any space between teeth.
-/// @throws StepFailure
-void require_same_space(const model::Load& load, double rate, double h) {
-  const auto* flank = dynamic_cast<const model::GearFlank*>(load.element.get());
-  const double way = std::abs(rate) * h;
-  if (flank == nullptr || way < 0.5 * flank->data().period) return;
-  throw StepFailure(fmt::format(
-      "joint \"{}\": its teeth pass {:.3g} m of each other within a step, more than half of their "
-      "pitch of {:.3g} m, so that blows would be missed; use a smaller `step`",
-      load.name, way, flank->data().period));
-}
 
 double rate_of(const dynamics::SystemRow& row, const std::vector<dynamics::BodyMotion>& motions) {
   double sum = 0;
