@@ -13,6 +13,10 @@ SIZE = 400
 INT, DOUBLE = ctypes.POINTER(ctypes.c_int), ctypes.POINTER(ctypes.c_double)
 
 
+# Of src/buckens/linalg/grid_plugin.h, whose structures stand below.
+VERSION = 5
+
+
 class Columns(ctypes.Structure):
     _fields_ = [("starts", INT), ("rows", INT), ("values", DOUBLE)]
 
@@ -22,7 +26,8 @@ GIVE = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_int, ctypes.c_int, ctype
 
 class Matrix(ctypes.Structure):
     _fields_ = [("size", ctypes.c_int), ("all", Columns), ("give", GIVE), ("source", ctypes.c_void_p), ("block", ctypes.c_int),
-                ("num_motions", ctypes.c_int), ("motions", DOUBLE), ("options", ctypes.c_char_p), ("order", INT)]
+                ("num_motions", ctypes.c_int), ("motions", DOUBLE), ("options", ctypes.c_char_p), ("order", INT),
+                ("terms", INT), ("weights", DOUBLE), ("num_terms", ctypes.c_int)]
 
 
 class Limits(ctypes.Structure):
@@ -93,6 +98,8 @@ def main():
     library = ctypes.CDLL(sys.argv[1])
     library.buckens_grid_plugin.restype = ctypes.POINTER(Plugin)
     plugin = library.buckens_grid_plugin()[0]
+    if plugin.version != VERSION:
+        sys.exit(f"the plug-in has version {plugin.version}, and the structures here are of {VERSION}: compare them with grid_plugin.h")
     rank, count = ctypes.c_int(), ctypes.c_int()
     plugin.join(ctypes.byref(rank), ctypes.byref(count))
     if rank.value > 0:
