@@ -91,6 +91,20 @@ def sensors(buckens, tmp_path):
 
 
 @pytest.fixture
+def static_path(buckens, tmp_path):
+    """Columns of a static path, and its summary."""
+
+    def call(text):
+        (tmp_path / "path.yaml").write_text(text)
+        buckens("static", "path.yaml", "-o", "path").must(0)
+        rows = list(csv.reader((tmp_path / "path" / "sensors.csv").open()))
+        columns = {name.split(" [")[0]: numpy.array([float(row[i]) for row in rows[1:]]) for i, name in enumerate(rows[0])}
+        return columns, json.loads((tmp_path / "path" / "summary.json").read_text())
+
+    return call
+
+
+@pytest.fixture
 def goes_on(buckens, tmp_path):
     """Stops a run halfway, goes on, and compares its records with those of one run: all the same characters."""
 

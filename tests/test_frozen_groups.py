@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Frozen friction of contacts among many bodies in statics: that of the same contacts given one by one."""
 
-import csv
 import itertools
-import json
 import math
 
 import numpy
@@ -39,27 +37,13 @@ output: {{every: 5 ms, sensors: {{{seen}, {sensors}}}}}
 """
 
 
-@pytest.fixture
-def path(buckens, tmp_path):
-    """Columns of a static path, and its summary."""
-
-    def call(text):
-        (tmp_path / "path.yaml").write_text(text)
-        buckens("static", "path.yaml", "-o", "path").must(0)
-        rows = list(csv.reader((tmp_path / "path" / "sensors.csv").open()))
-        columns = {name.split(" [")[0]: numpy.array([float(row[i]) for row in rows[1:]]) for i, name in enumerate(rows[0])}
-        return columns, json.loads((tmp_path / "path" / "summary.json").read_text())
-
-    return call
-
-
 @pytest.mark.parametrize("angle", [0, 15])
-def test_a_pile_is_held_as_by_its_contacts_one_by_one(path, sensors, angle):
+def test_a_pile_is_held_as_by_its_contacts_one_by_one(static_path, sensors, angle):
     """Three boxes press and pull on the floor, two and one on those below; where they come to rest, and start from."""
     pull = "  pull: {force: {on: c, value: [4, 0, 0]}}\n"
     slope = math.radians(angle)
-    together, summary = path(pile(angle, True, 0.5, more=pull))
-    separate, _ = path(pile(angle, False, 0.5, more=pull))
+    together, summary = static_path(pile(angle, True, 0.5, more=pull))
+    separate, _ = static_path(pile(angle, False, 0.5, more=pull))
     normal = 10 * G * math.cos(slope)
     along = 10 * G * math.sin(slope)
     pulled = 4 * together["load-factor"]
@@ -87,11 +71,11 @@ def test_what_takes_more_than_friction_gives_is_named_with_its_ratio(buckens, tm
                                                      f"ratio {ratio:.6g}", "would slide")
 
 
-def test_a_path_drags_a_pile(path):
+def test_a_path_drags_a_pile(static_path):
     """40 N on the upper box: each of the three places takes them."""
     pull = "  pull: {force: {on: c, value: [40, 0, 0]}}\n"
-    together, summary = path(pile(0, True, 0.3, more=pull))
-    separate, _ = path(pile(0, False, 0.3, more=pull))
+    together, summary = static_path(pile(0, True, 0.3, more=pull))
+    separate, _ = static_path(pile(0, False, 0.3, more=pull))
     # The floor alone does not tilt.
     assert separate["floor.friction"] == pytest.approx(40 * together["load-factor"], rel=1e-8, abs=1e-8)
     for quantity in ("normal", "friction"):
@@ -125,9 +109,9 @@ def test_a_frozen_group_holds_vibrations_along_its_surfaces(buckens, tmp_path):
     assert found[0][1] == pytest.approx(math.sqrt(4e6 / 10) / (2 * math.pi), rel=1e-6)
 
 
-def test_a_static_path_shows_what_a_group_presses_with(path):
+def test_a_static_path_shows_what_a_group_presses_with(static_path):
     """A ball on a guide, without friction: its weight and what is put on it."""
-    out, _ = path("""buckens: 1
+    out, _ = static_path("""buckens: 1
 gravity: [0, 0, -10]
 bodies: {a: {rigid: {mass: 1 kg, inertia: [1, 1, 1]}, at: {position: [0, 0, 0.1]}}}
 joints: {guide: {prismatic: {between: [ground, a], axis: [0, 0, 1]}}}

@@ -244,21 +244,7 @@ def test_messages_and_bytes_of_a_factor_are_those_of_one_vector_each_way(mpirun,
 @pytest.mark.parametrize("rank", [0, 1])
 def test_a_killed_process_ends_a_run_with_divided_matrices(tmp_path, rank):
     (tmp_path / "cube.yaml").write_text(CUBE)
-    command = [MPIRUN, "-n", "3", PROGRAM, "run", "cube.yaml", "-o", "out", "-q", "--set", "simulation.duration=3 s"]
-    with open(tmp_path / "told", "w") as told:
-        process = subprocess.Popen(command, cwd=tmp_path, env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=told, stderr=told)
-        try:
-            deadline = time.monotonic() + 240
-            csv = tmp_path / "out" / "sensors.csv"
-            while not csv.exists() or len(csv.read_text().splitlines()) < 3:
-                assert time.monotonic() < deadline and process.poll() is None, (tmp_path / "told").read_text()
-                time.sleep(0.1)
-            os.kill(started(process, rank), signal.SIGKILL)
-            assert process.wait(timeout=60) != 0
-        finally:
-            if process.poll() is None:
-                process.kill()
-    assert "signal 9" in (tmp_path / "told").read_text()
+    kill_one(tmp_path, rank, 3, "cube.yaml", "--set", "simulation.duration=3 s", records=2, seconds=240)
     assert len(sensors(tmp_path / "out")["t"]) >= 1, "what was recorded is there"
 
 
@@ -383,27 +369,31 @@ def started(mpirun_process, rank):
     return None
 
 
-@several
-@pytest.mark.parametrize("rank", [0, 1])
-def test_a_killed_process_ends_the_run(buckens, tmp_path, rank):
-    options = ("--set", "simulation.duration=3 s", "--set", "simulation.checkpoint=0.2 s", *DISTRIBUTED)
-    command = [MPIRUN, "-n", "2", PROGRAM, "run", str(BLOCKS), "-o", "out", "-q", *options]
-    with open(tmp_path / "told", "w") as told:
-        process = subprocess.Popen(command, cwd=tmp_path, env=ENVIRONMENT, stdin=subprocess.DEVNULL,
-                                   stdout=told, stderr=told)
+def kill_one(folder, rank, count, model, *options, records, seconds, needs=()):
+    """Runs a model on some processes and kills one of them once there are so many records, and the files that it needs."""
+    command = [MPIRUN, "-n", str(count), PROGRAM, "run", model, "-o", "out", "-q", *options]
+    with open(folder / "told", "w") as told:
+        process = subprocess.Popen(command, cwd=folder, env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=told, stderr=told)
         try:
-            deadline = time.monotonic() + 120
-            csv, checkpoint = tmp_path / "out" / "sensors.csv", tmp_path / "out" / "checkpoint.h5"
-            # A quick machine has a hundred records before the first checkpoint is due.
-            while not csv.exists() or len(csv.read_text().splitlines()) < 100 or not checkpoint.exists():
-                assert time.monotonic() < deadline and process.poll() is None, (tmp_path / "told").read_text()
+            deadline = time.monotonic() + seconds
+            csv = folder / "out" / "sensors.csv"
+            while not csv.exists() or len(csv.read_text().splitlines()) <= records or not all(name.exists() for name in needs):
+                assert time.monotonic() < deadline and process.poll() is None, (folder / "told").read_text()
                 time.sleep(0.1)
             os.kill(started(process, rank), signal.SIGKILL)
             assert process.wait(timeout=60) != 0
         finally:
             if process.poll() is None:
                 process.kill()
-    assert "signal 9" in (tmp_path / "told").read_text()
+    assert "signal 9" in (folder / "told").read_text()
+
+
+@several
+@pytest.mark.parametrize("rank", [0, 1])
+def test_a_killed_process_ends_the_run(buckens, tmp_path, rank):
+    options = ("--set", "simulation.duration=3 s", "--set", "simulation.checkpoint=0.2 s", *DISTRIBUTED)
+    # A quick machine has a hundred records before the first checkpoint is due.
+    kill_one(tmp_path, rank, 2, str(BLOCKS), *options, records=99, seconds=120, needs=[tmp_path / "out" / "checkpoint.h5"])
     kept = sensors(tmp_path / "out")
     assert len(kept["t"]) >= 50, "what was recorded is there"
     end = kept["t"][-1] + 0.02

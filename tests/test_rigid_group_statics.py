@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Equilibria and vibrations with rigid contacts among many bodies: those of the same contacts given one by one."""
 
-import csv
 import itertools
-import json
 import math
 
 import numpy
@@ -15,20 +13,6 @@ from test_frozen_groups import G, PLACES
 RADIUS = 0.05
 WALLS = {"floor": ("[0, 0, 0]", "[0, 0, 1]"), "west": ("[-0.11, 0, 0]", "[1, 0, 0]"), "east": ("[0.11, 0, 0]", "[-1, 0, 0]"),
          "south": ("[0, -0.11, 0]", "[0, 1, 0]"), "north": ("[0, 0.11, 0]", "[0, -1, 0]")}
-
-
-@pytest.fixture
-def path(buckens, tmp_path):
-    """Columns of a static path, and its summary."""
-
-    def call(text):
-        (tmp_path / "path.yaml").write_text(text)
-        buckens("static", "path.yaml", "-o", "path").must(0)
-        rows = list(csv.reader((tmp_path / "path" / "sensors.csv").open()))
-        columns = {name.split(" [")[0]: numpy.array([float(row[i]) for row in rows[1:]]) for i, name in enumerate(rows[0])}
-        return columns, json.loads((tmp_path / "path" / "summary.json").read_text())
-
-    return call
 
 
 def placed(places, shape="sphere: 50 mm"):
@@ -179,11 +163,11 @@ output: {{every: 5 ms, sensors: {{{seen}, {sensors}}}}}
 
 
 @pytest.mark.parametrize("angle, lift", [(0, 0.0), (15, 0.0), (0, 0.01)])
-def test_a_pile_is_held_as_by_its_contacts_one_by_one(path, sensors, angle, lift):
+def test_a_pile_is_held_as_by_its_contacts_one_by_one(static_path, sensors, angle, lift):
     pull = "  pull: {force: {on: c, value: [4, 0, 0]}}\n"
     slope = math.radians(angle)
-    together, summary = path(pile(angle, True, 0.5, pull, lift=lift))
-    separate, _ = path(pile(angle, False, 0.5, pull, lift=lift))
+    together, summary = static_path(pile(angle, True, 0.5, pull, lift=lift))
+    separate, _ = static_path(pile(angle, False, 0.5, pull, lift=lift))
     normal, along = 10 * G * math.cos(slope), 10 * G * math.sin(slope)
     pulled = 4 * together["load-factor"]
     assert separate["load-factor"] == pytest.approx(together["load-factor"], abs=1e-12)
@@ -231,14 +215,14 @@ output: {{sensors: {{p: {{position: upper}}, q: {{position: lower}}SEEN}}}}
 
 
 @pytest.mark.parametrize("method", ["load", "arc-length"])
-def test_a_path_leads_bodies_together_that_were_apart(path, method):
+def test_a_path_leads_bodies_together_that_were_apart(static_path, method):
     """The upper ball sinks onto the lower one, and both onto the floor: pairs come on the way. Heights are piecewise linear."""
     group = "c: {contacts: {among: [{on: ground, plane: {}}, {bodies: [upper, lower], sphere: 50 mm}]}}"
     single = ("c: {contact: {between: [lower, upper], shapes: [{sphere: 50 mm}, {sphere: 50 mm}]}}\n  d: {contact: {between: [ground, lower], shapes: [{plane: {}}, {sphere: 50 mm}]}}\n"
               "  e: {contact: {between: [ground, upper], shapes: [{plane: {}}, {sphere: 50 mm}]}}")
     text = GUIDED.replace("METHOD", method)
-    out, _ = path(text.replace("LOADS", group).replace("SEEN", ", c: {contact: c}"))
-    alone, _ = path(text.replace("LOADS", single).replace("SEEN", ", c: {contact: c}, d: {contact: d}"))
+    out, _ = static_path(text.replace("LOADS", group).replace("SEEN", ", c: {contact: c}"))
+    alone, _ = static_path(text.replace("LOADS", single).replace("SEEN", ", c: {contact: c}, d: {contact: d}"))
     mu = out["load-factor"]
     free = 0.5 - (G + 80 * mu) / 100
     below = 0.3 - 2 * G / 200  # the lower one alone

@@ -92,7 +92,8 @@ class EdgesOverEdges {
 
   std::array<Crossing, 2> search(const RelativePose& pose) const {
     std::array<Crossing, 2> best;
-    std::array<Crossing, 8> near;  // of those that touch
+    // Of those that touch, for part(); beyond them an edge that dips has one place, the lowest.
+    std::array<Crossing, 8> near;
     std::size_t num_near = 0;
     std::array<double, 2> least = {reach_, reach_};
     const auto limit = [&] { return std::max({least[0], least[1], deepest_}); };
