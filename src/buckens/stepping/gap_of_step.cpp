@@ -14,6 +14,8 @@ constexpr double kOnTheEnd = 1e-6;
 // Beyond both rates, and their difference, by this share of the larger one the mean rate of a step
 // cannot be.
 constexpr double kOtherRate = 0.5;
+// Share of the larger rate by which rates within a step go beyond those at its ends.
+constexpr double kBeyond = 0.1;
 
 }  // namespace
 
@@ -44,6 +46,12 @@ double GapOfStep::rate_at(double s) const {
   const double r = 1.0 - s;
   return 6.0 * s * r * (end - start) / h + r * (1.0 - 3.0 * s) * rate_start +
          s * (3.0 * s - 2.0) * rate_end;
+}
+
+double GapOfStep::likely_rate_at(double s) const {
+  const double beyond = kBeyond * std::max(std::abs(rate_start), std::abs(rate_end));
+  return std::clamp(rate_at(s), std::min(rate_start, rate_end) - beyond,
+                    std::max(rate_start, rate_end) + beyond);
 }
 
 bool GapOfStep::begins_elsewhere() const {

@@ -13,6 +13,9 @@ struct GapOfStep {
   double closes_at() const;
   /// Rate of the cubic after the part s of the step.
   double rate_at(double s) const;
+  /// The same, but no faster or slower than at both ends by more than a tenth: a cubic that is has
+  /// gone through more than one place.
+  double likely_rate_at(double s) const;
   /// Whether the gap has changed over the step by clearly other than its rates allow: then its
   /// place at the start is another one than at the end, as where an edge takes over from a face.
   bool begins_elsewhere() const;

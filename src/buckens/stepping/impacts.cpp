@@ -109,7 +109,7 @@ void Impacts::start(const std::vector<dynamics::BodyMotion>& motions,
     law.start = motion_of(model_, model_.loads[law.load], motions, memory);
     law.bounces = true;
   }
-  if (is_rough_) start_ = motions;
+  if (can_happen()) start_ = motions;
 }
 
 bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
@@ -149,8 +149,7 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
       const bool is_met = touch.strikes && !touch.stays && !is_other(-touch.approach);
       touch.is_elsewhere = is_other(touch.rate) && !is_met;
     });
-    if (touch.is_elsewhere)
-      set_row(laws_[touch.law].load, touch.sign, motions, around.memory, touch);
+    if (touch.is_elsewhere) take_row_of_end(touch, motions, around.memory);
     answers_to_.answer(touch);
   }
   for (std::size_t k = 0; k < touches_.size(); ++k) {
@@ -174,7 +173,9 @@ bool Impacts::strike(const std::vector<dynamics::BodyMotion>& then,
       P = solve(D, nullptr);  // says what cannot be solved
     }
     move_bodies(P);
-    land(P, D * P);
+    const Vector jump = D * P;
+    land(jump);
+    lose(P, jump, then);
     clear_ends(P, then, rows_in_use, memory, t);
   } catch (const StepFailure& failure) {
     const model::Load& load = model_.loads[laws_[touches_.front().law].load];
@@ -416,7 +417,7 @@ void Impacts::set_approach(Touch& touch, const Law& law, const loads::Coordinate
     way.rate_start = rate_end;
   }
   const double s = way.closes_at();
-  touch.approach = std::max(0.0, -way.rate_at(s));
+  touch.approach = std::max(0.0, -way.likely_rate_at(s));
   touch.rest = touch.since = (1.0 - s) * scheme_.h;
   const double e = restitution(law, touch.approach);
   touch.met = -touch.approach;
@@ -431,6 +432,15 @@ void Impacts::set_approach(Touch& touch, const Law& law, const loads::Coordinate
   touch.approach = -rate_end;
   touch.met = rate_end;
   touch.rest = std::min(-gap / touch.target, scheme_.h);
+}
+
+void Impacts::take_row_of_end(Touch& touch, const std::vector<dynamics::BodyMotion>& end,
+                              const model::RowMemory* memory) {
+  const Law& law = laws_[touch.law];
+  set_row(law.load, touch.sign, end, memory, touch);
+  if (!touch.strikes || touch.stays || touch.is_of_step) return;
+  touch.approach = -touch.rate;
+  touch.target = (1.0 + restitution(law, touch.approach)) * touch.approach;
 }
 
 void Impacts::make_impulse_of_step(Touch& touch, double e, double rate_start) const {
@@ -521,7 +531,7 @@ void Impacts::clear_ends(const Vector& P, const std::vector<dynamics::BodyMotion
   }
 }
 
-void Impacts::land(const Vector& P, const Vector& jump) {
+void Impacts::land(const Vector& jump) {
   double size = 0;  // of rates, to tell them from rounding
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     const double change = jump[static_cast<Eigen::Index>(k)];
@@ -535,8 +545,6 @@ void Impacts::land(const Vector& P, const Vector& jump) {
       const Law& law = laws_[touch.law];
       const bool is_jammed = touch.strikes && !law.bounces;
       if (is_jammed && law.law->restitution(touch.approach, signals_) > 0.0) ++jammed_;
-      lose(laws_[touch.law].load,
-           0.5 * touch.lost_share * P[i] * (touch.approach - touch.met - jump[i]));
     }
     // Driven off by others, or left with the share of its speed: no longer held.
     const bool leaves = touch.rate + jump[i] > std::max(1e-9 * size, weight_returns(touch));
@@ -545,18 +553,44 @@ void Impacts::land(const Vector& P, const Vector& jump) {
     landings_.push_back({rigid_row, is_held ? touch.regime : 0});
     land_slips(k, is_held, jump);
   }
-  for (std::size_t k = 0; k < slips_.size(); ++k) {
-    const auto i = static_cast<Eigen::Index>(touches_.size() + k);
-    const Slip& slip = slips_[k];
-    const double after = slip.speed + jump[i];
-    // Where it holds, what it does on the motion that weight brings within the rest of the step is
-    // no loss; where it slides, all of it rubs over the way between.
-    const bool holds =
-        !touches_[slip.touch].is_of_step && std::abs(after) <= kStopped * std::abs(slip.speed);
-    const double share =
-        holds && slip.speed != 0.0 ? std::clamp(slip.at_impact / slip.speed, 0.0, 1.0) : 1.0;
-    lose(friction_of(slip).load, -0.5 * share * P[i] * (slip.at_impact + after));
+}
+
+void Impacts::lose(const Vector& P, const Vector& jump,
+                   const std::vector<dynamics::BodyMotion>& end) {
+  for (std::size_t k = 0; k < num_pushes(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    const bool is_slip = k >= touches_.size();
+    const Touch& touch = touches_[is_slip ? slips_[k - touches_.size()].touch : k];
+    const Law& law = laws_[touch.law];
+    const std::size_t load = is_slip ? friction_of(slips_[k - touches_.size()]).load : law.load;
+    if (moves_mesh(law)) {
+      lose(load, is_slip ? loss_of_slip(slips_[k - touches_.size()], P[i], jump[i])
+                         : loss_on_mesh(touch, P[i], jump[i]));
+      continue;
+    }
+    const double rate_end = rate_of(push(k).row, end), rate_start = rate_of(push(k).row, start_);
+    const double met = rate_end + touch.rest / scheme_.h * (rate_start - rate_end);
+    const double loss = -P[i] * (met + 0.5 * jump[i]);
+    // What strikes gives nothing back: less than none is what lifts bodies out of an end that they
+    // were in before, for the balance to show.
+    lose(load, !is_slip && touch.strikes ? std::max(0.0, loss) : loss);
   }
+}
+
+double Impacts::loss_on_mesh(const Touch& touch, double P, double jump) const {
+  if (!(touch.approach > 0.0)) return 0.0;
+  return 0.5 * touch.lost_share * P * (touch.approach - touch.met - jump);
+}
+
+double Impacts::loss_of_slip(const Slip& slip, double P, double jump) const {
+  const double after = slip.speed + jump;
+  // Where it holds, what it does on the motion that weight brings within the rest of the step is
+  // no loss; where it slides, all of it rubs over the way between.
+  const bool holds =
+      !touches_[slip.touch].is_of_step && std::abs(after) <= kStopped * std::abs(slip.speed);
+  const double share =
+      holds && slip.speed != 0.0 ? std::clamp(slip.at_impact / slip.speed, 0.0, 1.0) : 1.0;
+  return -0.5 * share * P * (slip.at_impact + after);
 }
 
 void Impacts::lose(std::size_t load, double energy) {

@@ -163,6 +163,9 @@ class Impacts {
   double restitution(const Law& law, double approach) const;
   void set_approach(Touch& touch, const Law& law, const loads::CoordinateMotion& end, double sign,
                     double gap) const;
+  /// For a touch that is elsewhere at its impact: its row, and its speed, at the end of the step.
+  void take_row_of_end(Touch& touch, const std::vector<dynamics::BodyMotion>& end,
+                       const model::RowMemory* memory);
   /// Where a mesh takes part, the impulse of what leaves again belongs to the step as a whole.
   /// @param e restitution, @param rate_start away from the end, negative
   void make_impulse_of_step(Touch& touch, double e, double rate_start) const;
@@ -175,11 +178,19 @@ class Impacts {
   /// Takes bodies out of ends into which impulses of the step would still let them go.
   void clear_ends(const linalg::Vector& P, const std::vector<dynamics::BodyMotion>& then,
                   const std::vector<int>& rows_in_use, const model::RowMemory* memory, double t);
-  void land(const linalg::Vector& P, const linalg::Vector& jump);
+  void land(const linalg::Vector& jump);
   /// Speed up to which weight brings back what leaves within a step [m/s]: it does not count as
   /// leaving, or what has come to rest would rock on by it for ever.
   double weight_returns(const Touch& touch) const;
+  /// Energy lost by all pushes: each has the mean of its rates before and after, which are those at
+  /// the instant from which on its impulse moves the bodies.
+  /// @param end motions with the velocities of the end of the step
+  void lose(const linalg::Vector& P, const linalg::Vector& jump,
+            const std::vector<dynamics::BodyMotion>& end);
   void lose(std::size_t load, double energy);
+  /// The same of one touch and one slip where meshes take part, from rates alone.
+  double loss_on_mesh(const Touch& touch, double P, double jump) const;
+  double loss_of_slip(const Slip& slip, double P, double jump) const;
   void land_slips(std::size_t touch, bool is_held, const linalg::Vector& jump);
 
   const model::Model& model_;
@@ -188,7 +199,7 @@ class Impacts {
   std::vector<const BodyAnswer*> answers_;
   std::vector<Law> laws_;
   bool is_rough_ = false;                    // any of them has friction
-  std::vector<dynamics::BodyMotion> start_;  // of the step, where they have
+  std::vector<dynamics::BodyMotion> start_;  // of the step
   std::vector<Touch> touches_;
   std::vector<Slip> slips_;
   BlowIslands islands_;
