@@ -111,6 +111,8 @@ class Impacts {
   };
   /// Slip of a stop that is reached, along one direction.
   struct Slip : Push {
+    /// Share of a slip below which what is left of it is rounding.
+    static constexpr double kStopped = 1e-9;
     std::size_t touch;     ///< index into touches_
     std::size_t friction;  ///< index into Law::frictions
     double speed = 0;      ///< that friction acts on: at the impact, or at the end of the step
@@ -179,6 +181,8 @@ class Impacts {
   void clear_ends(const linalg::Vector& P, const std::vector<dynamics::BodyMotion>& then,
                   const std::vector<int>& rows_in_use, const model::RowMemory* memory, double t);
   void land(const linalg::Vector& jump);
+  static double rate_of(const dynamics::SystemRow& row,
+                        const std::vector<dynamics::BodyMotion>& motions);
   /// Speed up to which weight brings back what leaves within a step [m/s]: it does not count as
   /// leaving, or what has come to rest would rock on by it for ever.
   double weight_returns(const Touch& touch) const;

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// What impacts lose. Theory: docs/theory/23-impacts.md §2.
+#include <algorithm>
+#include <cmath>
+
+#include "buckens/stepping/impacts.h"
+
+namespace buckens::stepping {
+
+using linalg::Vector;
+
+double Impacts::rate_of(const dynamics::SystemRow& row,
+                        const std::vector<dynamics::BodyMotion>& motions) {
+  double sum = 0;
+  for (const dynamics::BodyRow* part : {&row.first, &row.second}) {
+    if (part->body != model::kGround)
+      sum += part->rate(motions[static_cast<std::size_t>(part->body)]);
+  }
+  return sum;
+}
+
+void Impacts::lose(const Vector& P, const Vector& jump,
+                   const std::vector<dynamics::BodyMotion>& end) {
+  for (std::size_t k = 0; k < num_pushes(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    const bool is_slip = k >= touches_.size();
+    const Touch& touch = touches_[is_slip ? slips_[k - touches_.size()].touch : k];
+    const Law& law = laws_[touch.law];
+    const std::size_t load = is_slip ? friction_of(slips_[k - touches_.size()]).load : law.load;
+    if (moves_mesh(law)) {
+      lose(load, is_slip ? loss_of_slip(slips_[k - touches_.size()], P[i], jump[i])
+                         : loss_on_mesh(touch, P[i], jump[i]));
+      continue;
+    }
+    const double rate_end = rate_of(push(k).row, end), rate_start = rate_of(push(k).row, start_);
+    const double met = rate_end + touch.rest / scheme_.h * (rate_start - rate_end);
+    const double loss = -P[i] * (met + 0.5 * jump[i]);
+    // What strikes gives nothing back: less than none is what lifts bodies out of an end that they
+    // were in before, for the balance to show.
+    lose(load, !is_slip && touch.strikes ? std::max(0.0, loss) : loss);
+  }
+}
+
+double Impacts::loss_on_mesh(const Touch& touch, double P, double jump) const {
+  if (!(touch.approach > 0.0)) return 0.0;
+  return 0.5 * touch.lost_share * P * (touch.approach - touch.met - jump);
+}
+
+double Impacts::loss_of_slip(const Slip& slip, double P, double jump) const {
+  const double after = slip.speed + jump;
+  // Where it holds, what it does on the motion that weight brings within the rest of the step is
+  // no loss; where it slides, all of it rubs over the way between.
+  const bool holds =
+      !touches_[slip.touch].is_of_step && std::abs(after) <= Slip::kStopped * std::abs(slip.speed);
+  const double share =
+      holds && slip.speed != 0.0 ? std::clamp(slip.at_impact / slip.speed, 0.0, 1.0) : 1.0;
+  return -0.5 * share * P * (slip.at_impact + after);
+}
+
+void Impacts::lose(std::size_t load, double energy) {
+  loss_ += energy;
+  shares_.push_back({load, energy});
+}
+
+}  // namespace buckens::stepping
