@@ -125,13 +125,14 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
                      const std::vector<char>* at_joints) {
   const Circumstances around = with_signals(model, motions, t, given, out.signals);
   out.reset(model, gravity_at(model, signals_of(around)));
+  EndsInTurn in_turn(model, motions, around.memory);
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const model::Load& load = model.loads[k];
     if (at_joints != nullptr && (*at_joints)[k] != 0) {
       out.leave_place(load);
       continue;
     }
-    const LoadEnds ends = ends_of(model, load, motions, around.memory);
+    const LoadEnds& ends = in_turn.of(load);
     loads::Action action = citing(load, [&] { return action_of(model, k, t, around, ends); });
     if (load_factor != 1.0 && load.element->is_applied()) {
       for (spatial::Wrench* wrench : {&action.on_first, &action.on_second}) {
@@ -251,6 +252,7 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
   out.first_of_mix.clear();
   if (slopes != nullptr) slopes->clear();
   std::vector<loads::SoftRow>& rows = out.of_one;
+  EndsInTurn in_turn(model, motions, around.memory);
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const model::Load& load = model.loads[k];
     if (load.element->num_soft_rows() == 0) continue;
@@ -258,7 +260,7 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
       at_joints->append_soft_rows(k, motions, t, around, out, slopes);
       continue;
     }
-    const LoadEnds ends = ends_of(model, load, motions, around.memory);
+    const LoadEnds& ends = in_turn.of(load);
     rows.clear();
     const loads::Sight sight = sight_of(model, k, t, around, ends);
     const bool is_off = around.memory != nullptr && around.memory->is_off(k);

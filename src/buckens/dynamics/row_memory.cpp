@@ -167,6 +167,7 @@ void advance_memory(const model::Model& model, const std::vector<BodyMotion>& mo
     follow_rows(model, motions, t, around.lambda, &before.released, before.rows.data(), out.rows);
   }
   out.laws.resize(before.laws.size());
+  EndsInTurn in_turn(model, motions, &before);
   for (std::size_t k = 0; k < model.loads.size() && before.laws.size() > 0; ++k) {
     const model::Load& load = model.loads[k];
     if (load.element->num_states() == 0) continue;
@@ -183,7 +184,7 @@ void advance_memory(const model::Model& model, const std::vector<BodyMotion>& mo
                                 states);
       continue;
     }
-    const LoadEnds ends = ends_of(model, load, motions, &before);
+    const LoadEnds& ends = in_turn.of(load);
     load.element->find_states(sight_of(model, k, t, around, ends), states);
   }
   advance_near(model, motions, t, around, out);

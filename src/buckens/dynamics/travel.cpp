@@ -179,6 +179,24 @@ LoadEnds ends_of(const model::Model& model, const model::Load& load,
   return out;
 }
 
+bool EndsInTurn::are_of(const model::Load& load) const {
+  // Points of the ground differ by where they are.
+  const auto is_same = [](const model::MarkerId& a, const model::MarkerId& b) {
+    if (a.body != b.body || a.marker != b.marker) return false;
+    return a.body != model::kGround ||
+           (a.X_WF.p == b.X_WF.p && a.X_WF.q.coeffs() == b.X_WF.q.coeffs());
+  };
+  return last_ != nullptr && load.joint < 0 && last_->joint < 0 && load.others.empty() &&
+         last_->others.empty() && is_same(load.first, last_->first) &&
+         is_same(load.second, last_->second);
+}
+
+const LoadEnds& EndsInTurn::of(const model::Load& load) {
+  if (!are_of(load)) ends_.emplace(ends_of(model_, load, motions_, memory_));
+  last_ = &load;
+  return *ends_;
+}
+
 loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
                       const Circumstances& around, const LoadEnds& ends) {
   loads::Sight out =

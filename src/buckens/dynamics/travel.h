@@ -104,6 +104,27 @@ struct LoadEnds {
 LoadEnds ends_of(const model::Model& model, const model::Load& load,
                  const std::vector<BodyMotion>& motions, const model::RowMemory* memory);
 
+/// Ends of loads one after the other. Loads of the same two markers that follow each other share
+/// them, as the many places of two shapes that touch.
+class EndsInTurn {
+ public:
+  /// All arguments must outlive this object.
+  EndsInTurn(const model::Model& model, const std::vector<BodyMotion>& motions,
+             const model::RowMemory* memory)
+      : model_(model), motions_(motions), memory_(memory) {}
+  /// Good until the next call.
+  const LoadEnds& of(const model::Load& load);
+
+ private:
+  bool are_of(const model::Load& load) const;
+
+  const model::Model& model_;
+  const std::vector<BodyMotion>& motions_;
+  const model::RowMemory* memory_;
+  const model::Load* last_ = nullptr;
+  std::optional<LoadEnds> ends_;
+};
+
 /// All that a load may see. @param load index into Model::loads, @param ends its markers, to
 /// outlive what is returned
 loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
