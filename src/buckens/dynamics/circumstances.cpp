@@ -74,6 +74,21 @@ void tell_rest(const model::Model& model, std::size_t load, const Circumstances&
 
 }  // namespace
 
+bool is_open_place(const model::Model& model, std::size_t load, const Circumstances& around) {
+  if (model.loads[load].rigid_row < 0) return false;
+  const auto& law = static_cast<const loads::RigidLaw&>(*model.loads[load].element);
+  const int row = law.row_of_place();
+  if (row < 0) return false;
+  const auto is_open = [&](std::size_t k) {
+    const bool has_memory = around.memory != nullptr && around.memory->laws.size() > 0;
+    const double* const states =
+        has_memory ? around.memory->laws.data() + model.loads[k].first_state : nullptr;
+    const loads::RowStand stand = stand_of(model, k, around, states);
+    return stand.regime == 0 && stand.force == 0.0;
+  };
+  return is_open(load) && (row == 0 || is_open(load - static_cast<std::size_t>(row)));
+}
+
 Circumstances circumstances_of(const model::State& state) {
   return {&state.inputs, &state.memory, &state.lambda, nullptr};
 }

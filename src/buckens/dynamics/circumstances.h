@@ -34,6 +34,10 @@ inline Eigen::Vector3d gravity_at(const model::Model& model, std::span<const dou
   return Eigen::Map<const Eigen::Vector3d>(signals.data() + 1 + model.gravity_settings);
 }
 
+/// Whether a load is a row of a place of a rigid contact that is open, so that it does nothing,
+/// wherever its bodies are. @param load index into Model::loads
+bool is_open_place(const model::Model& model, std::size_t load, const Circumstances& around);
+
 /// Those of a state.
 Circumstances circumstances_of(const model::State& state);
 

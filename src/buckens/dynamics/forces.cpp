@@ -132,6 +132,10 @@ void evaluate_forces(const model::Model& model, const std::vector<BodyMotion>& m
       out.leave_place(load);
       continue;
     }
+    if (is_open_place(model, k, around)) {
+      out.leave_place(load);
+      continue;
+    }
     const LoadEnds& ends = in_turn.of(load);
     loads::Action action = citing(load, [&] { return action_of(model, k, t, around, ends); });
     if (load_factor != 1.0 && load.element->is_applied()) {
@@ -219,6 +223,29 @@ void add_parts(const model::Model& model, const model::Load& load, const LoadEnd
 
 }  // namespace
 
+namespace {
+
+/// A row that does nothing, between the bodies of a load.
+void append_open_place(const model::Model& model, const model::Load& load, SoftRows& out) {
+  const auto nothing = [&](const model::MarkerId& id) {
+    BodyRow row;
+    row.body = id.body;
+    if (id.body == model::kGround) return row;
+    const auto& markers = model.bodies[static_cast<std::size_t>(id.body)].markers;
+    row.translation_row = markers[static_cast<std::size_t>(id.marker)].translation_row;
+    row.rotation_row = markers[static_cast<std::size_t>(id.marker)].rotation_row;
+    return row;
+  };
+  out.rows.push_back({nothing(load.first), nothing(load.second), {}});
+  out.stiffness.push_back(0.0);
+  out.damping.push_back(0.0);
+  out.rigid.push_back(load.rigid_row);
+  out.is_closed.push_back(0);
+  out.regimes.push_back(0);
+}
+
+}  // namespace
+
 void append_mix(const loads::ForceElement& element, const loads::Sight& sight, SoftRows& out) {
   loads::RowMix mix;
   if (!element.mix_rows(sight, mix)) return;
@@ -258,6 +285,10 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
     if (load.element->num_soft_rows() == 0) continue;
     if (at_joints != nullptr && at_joints->laws()[k] != 0) {
       at_joints->append_soft_rows(k, motions, t, around, out, slopes);
+      continue;
+    }
+    if (is_open_place(model, k, around)) {
+      append_open_place(model, load, out);
       continue;
     }
     const LoadEnds& ends = in_turn.of(load);

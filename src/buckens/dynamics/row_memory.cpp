@@ -177,6 +177,10 @@ void advance_memory(const model::Model& model, const std::vector<BodyMotion>& mo
       continue;
     }
     double* const states = out.laws.data() + load.first_state;
+    if (is_open_place(model, k, around)) {
+      std::fill_n(states, load.element->num_states(), 0.0);
+      continue;
+    }
     const auto coordinate = static_cast<std::size_t>(load.coordinate);
     if (load.joint >= 0 && load.coordinate >= 0 && seen[coordinate].are_known) {
       const Markers& markers = seen[coordinate];

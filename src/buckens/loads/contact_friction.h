@@ -40,6 +40,7 @@ class ContactFriction final : public RigidLaw {
   void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const override;
   void find_states(const Sight& sight, double* states) const override;
   int direction() const { return direction_; }
+  int row_of_place() const override { return 1 + direction_; }
   const spatial::RigidTouch& touch() const { return touch_; }
   /// As the model says: events do not count.
   const ContactFrictionData& data() const { return data_; }

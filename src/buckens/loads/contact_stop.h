@@ -16,6 +16,7 @@ class ContactStop final : public RigidStop {
       : RigidStop(0.0, HUGE_VAL, restitution, threshold), touch_(touch), settings_(settings) {}
 
   Action respond(const Sight& sight) const override;
+  int row_of_place() const override { return 0; }
 
  private:
   RigidRow row(const Sight& sight) const override;

@@ -40,6 +40,10 @@ class RigidLaw : public ForceElement {
   virtual double restitution(double /*approach*/, std::span<const double> /*signals*/) const {
     return 0.0;
   }
+  /// Which of the rows of one place of a contact it is: 0 across the surface, 1 and 2 along it; −1:
+  /// of none. The rows along follow that across. Open, none of them does anything, nor closes
+  /// before an impact.
+  virtual int row_of_place() const { return -1; }
   /// A motor: its power comes from outside.
   virtual bool is_source() const { return false; }
   /// Of the coordinate while the row is closed, as far as laws of time and the motion say [m/s²] or
