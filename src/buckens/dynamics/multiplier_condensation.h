@@ -120,8 +120,9 @@ class MultiplierCondensation {
   void add_body(std::size_t b, const BodyCompliance& compliance, linalg::BlockLu& into) const;
   void subtract_slopes(const std::vector<double>& soft_compliance, linalg::BlockLu& from) const;
   /// Calls take(row, column, value) for every entry of S.
+  /// @param may_leave_out entries that blocks without rows have with others, all zero
   template <class Take>
-  void for_entries(Take&& take);
+  void for_entries(bool may_leave_out, Take&& take);
   /// Finds the blocks that have only empty rows and no slopes.
   void find_idle_blocks();
   bool is_empty(int row) const { return force_.is_empty(row) && (!test_ || test_->is_empty(row)); }
@@ -133,6 +134,7 @@ class MultiplierCondensation {
   bool factorise_direct(const std::vector<BodyCompliance>& compliance,
                         const std::vector<double>& soft_compliance);
   void factorise_with_slopes(const std::vector<double>& soft_compliance);
+  void keep_before_slopes(const linalg::BlockLu& S);
   void leave_slopes_out();
   void solve(linalg::Vector& x, Slopes slopes) const;
   void solve_direct(linalg::Vector& x, Slopes slopes) const;
@@ -162,9 +164,9 @@ class MultiplierCondensation {
   linalg::SmallLu small_;
   mutable linalg::Vector small_x_;
   std::vector<MultiplierSlope> slopes_;
-  std::optional<linalg::BlockLu> sloped_;  // S′, empty until it is needed
-  std::vector<double> before_slopes_;      // its values without them
-  bool has_sloped_ = false;                // multipliers are found with it
+  std::optional<linalg::BlockLu> sloped_;         // S′, empty until it is needed
+  std::optional<linalg::BlockLu> before_slopes_;  // as entered, without slopes
+  bool has_sloped_ = false;                       // multipliers are found with it
 
   // Of loose rows only: what the bodies give, and the inverse of what each block gives alone.
   std::vector<BodyCompliance> compliance_;

@@ -9,9 +9,8 @@ void MultiplierCondensation::factorise_with_slopes(const std::vector<double>& so
   has_sloped_ = false;
   if (slopes_.empty()) return;
   if (!sloped_) sloped_ = block_lu_;
-  before_slopes_ = block_lu_.values();
-  sloped_->set_alone(is_idle_);
-  sloped_->take_values(before_slopes_);
+  keep_before_slopes(block_lu_);
+  sloped_->take_values(block_lu_);
   subtract_slopes(soft_compliance, *sloped_);
   has_sloped_ = sloped_->factorise() && sloped_->pivot_ratio() > kPoorPivot;
 }
@@ -22,16 +21,24 @@ bool MultiplierCondensation::factorise_multipliers(const std::vector<BodyComplia
   if (num_loose_ > 0 || exchanges_rows_) return false;
   if (!sloped_) sloped_ = block_lu_;
   assemble(compliance, soft_compliance, *sloped_);
-  before_slopes_ = sloped_->values();
+  keep_before_slopes(*sloped_);
   subtract_slopes(soft_compliance, *sloped_);
   has_sloped_ = sloped_->factorise() && sloped_->pivot_ratio() > kPoorPivot;
   if (!has_sloped_ && !slopes_.empty()) leave_slopes_out();
   return has_sloped_;
 }
 
+void MultiplierCondensation::keep_before_slopes(const linalg::BlockLu& S) {
+  if (before_slopes_) {
+    before_slopes_->take_values(S);
+  } else {
+    before_slopes_ = S;
+  }
+}
+
 void MultiplierCondensation::leave_slopes_out() {
   slopes_.clear();
-  sloped_->take_values(before_slopes_);
+  sloped_->take_values(*before_slopes_);
   has_sloped_ = sloped_->factorise() && sloped_->pivot_ratio() > kPoorPivot;
 }
 
@@ -40,8 +47,8 @@ void MultiplierCondensation::renew_slopes(const std::vector<MultiplierSlope>& sl
   if (!has_sloped_) return;
   slopes_ = slopes;
   find_idle_blocks();
+  sloped_->take_values(*before_slopes_);
   sloped_->set_alone(is_idle_);
-  sloped_->take_values(before_slopes_);
   subtract_slopes(soft_compliance, *sloped_);
   has_sloped_ = sloped_->factorise() && sloped_->pivot_ratio() > kPoorPivot;
   if (!has_sloped_) leave_slopes_out();

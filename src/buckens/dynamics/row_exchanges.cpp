@@ -13,8 +13,10 @@ constexpr double kFull = 0.3;
 }  // namespace
 
 template <class Take>
-void MultiplierCondensation::for_entries(Take&& take) {
+void MultiplierCondensation::for_entries(bool may_leave_out, Take&& take) {
+  const auto is_idle = [&](int block) { return is_idle_[static_cast<std::size_t>(block)] != 0; };
   for (const auto& [i, j] : couples_) {
+    if (may_leave_out && i != j && (is_idle(i) || is_idle(j))) continue;
     const RowBlock& row = force_.blocks()[static_cast<std::size_t>(i)];
     const RowBlock& column = force_.blocks()[static_cast<std::size_t>(j)];
     const int place = block_lu_.place(i, j);
@@ -31,7 +33,8 @@ void MultiplierCondensation::for_entries(Take&& take) {
 
 void MultiplierCondensation::make_general() {
   std::vector<linalg::Triplet> entries;
-  for_entries([&](int row, int column, double value) { entries.emplace_back(row, column, value); });
+  for_entries(false,
+              [&](int row, int column, double value) { entries.emplace_back(row, column, value); });
   S_.resize(size() - num_loose_, size() - num_loose_);
   S_.setFromTriplets(entries.begin(), entries.end());
   general_.emplace(S_);
@@ -51,7 +54,7 @@ bool MultiplierCondensation::take_small() {
   small_matrix_.setZero(count, count);
   diagonal_of_empty_.setOnes(rows);
   int num_entries = 0;
-  for_entries([&](int row, int column, double value) {
+  for_entries(true, [&](int row, int column, double value) {
     const int i = place_in_small_[static_cast<std::size_t>(row)];
     const int j = place_in_small_[static_cast<std::size_t>(column)];
     if (row == column && i < 0) diagonal_of_empty_[row] = value;
@@ -68,7 +71,8 @@ bool MultiplierCondensation::factorise_with_exchanges() {
   if (!general_) {
     make_general();
   } else {
-    for_entries([&](int row, int column, double value) { S_.coeffRef(row, column) = value; });
+    for_entries(false,
+                [&](int row, int column, double value) { S_.coeffRef(row, column) = value; });
   }
   return general_->factorise(S_);
 }

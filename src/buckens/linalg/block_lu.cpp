@@ -212,9 +212,50 @@ void BlockLu::place_rows() {
   }
 }
 
-void BlockLu::clear() {
-  std::fill(values_.begin(), values_.end(), 0.0);
+std::size_t BlockLu::size_of(const Place& place) const {
+  const int columns = uniform_ > 0 ? uniform_ : sizes_[static_cast<std::size_t>(place.column)];
+  return static_cast<std::size_t>(place.stride * columns);
+}
+
+template <class F>
+void BlockLu::for_coupled(F&& f) const {
+  for (std::size_t i = 0; i < sizes_.size(); ++i) {
+    if (alone_[i] != 0) continue;
+    for (const auto& [j, place] : by_row_[i]) {
+      if (alone_[static_cast<std::size_t>(j)] == 0) f(places_[static_cast<std::size_t>(place)]);
+    }
+  }
+}
+
+void BlockLu::take_values(const BlockLu& from) {
+  clear();
+  set_alone(from.alone_);
+  if (alone_.empty()) {
+    values_ = from.values_;
+    return;
+  }
+  const auto copy = [&](std::size_t first, std::size_t count) {
+    std::copy_n(from.values_.begin() + static_cast<std::ptrdiff_t>(first), count,
+                values_.begin() + static_cast<std::ptrdiff_t>(first));
+  };
   for (const Pivot& pivot : pivots_) {
+    copy(pivot.diagonal, static_cast<std::size_t>(pivot.stored * pivot.stored));
+  }
+  for_coupled([&](const Place& place) { copy(place.first, size_of(place)); });
+}
+
+void BlockLu::clear() {
+  const auto zero = [&](std::size_t first, std::size_t count) {
+    std::fill_n(values_.begin() + static_cast<std::ptrdiff_t>(first), count, 0.0);
+  };
+  if (alone_.empty()) {
+    zero(0, values_.size());
+  } else {
+    for_coupled([&](const Place& place) { zero(place.first, size_of(place)); });
+  }
+  for (const Pivot& pivot : pivots_) {
+    if (!alone_.empty())
+      zero(pivot.diagonal, static_cast<std::size_t>(pivot.stored * pivot.stored));
     for (int k = sizes_[static_cast<std::size_t>(pivot.block)]; k < pivot.stored; ++k) {
       values_[pivot.diagonal + static_cast<std::size_t>(k * pivot.stored + k)] = 1.0;
     }
@@ -222,6 +263,8 @@ void BlockLu::clear() {
 }
 
 void BlockLu::set_alone(const std::vector<char>& blocks) {
+  if (blocks == alone_) return;
+  alone_ = blocks;
   const auto is_alone = [&](int block) {
     return !blocks.empty() && blocks[static_cast<std::size_t>(block)] != 0;
   };

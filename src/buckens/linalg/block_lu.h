@@ -31,10 +31,9 @@ class BlockLu {
   BlockLu(std::vector<int> sizes, const std::vector<std::pair<int, int>>& couples,
           std::vector<int> rows = {});
 
-  /// What was entered, before it is factorised.
-  const std::vector<double>& values() const { return values_; }
-  /// Enters all values() of another matrix with the same pattern.
-  void take_values(const std::vector<double>& values) { values_ = values; }
+  /// Enters all that another matrix with the same pattern has, with the blocks that are alone
+  /// there.
+  void take_values(const BlockLu& from);
   /// Where a block of the pattern is stored. @param i,j equal, or a pair of the constructor
   int place(int i, int j) const;
   /// Starts a new matrix: all values become zero.
@@ -46,6 +45,7 @@ class BlockLu {
   double& diagonal(int row);
   /// Says which blocks have nothing off their diagonal block in the matrices to come, neither by
   /// row nor by column: they cost nothing, and the result is the same.
+  /// After clear(), or with no fewer of them coupled than before.
   /// @param blocks one entry per block, not zero: alone; empty: none
   void set_alone(const std::vector<char>& blocks);
 
@@ -85,6 +85,11 @@ class BlockLu {
     bool is_alone = false;
   };
 
+  /// Calls f(place) for all blocks of which neither row nor column is alone.
+  template <class F>
+  void for_coupled(F&& f) const;
+  std::size_t size_of(const Place& place) const;
+
   void order(const std::vector<std::pair<int, int>>& couples);
   void lay_out();
   void place_rows();
@@ -109,7 +114,8 @@ class BlockLu {
   std::vector<std::vector<int>> coupled_;  // neighbours of each at that time
   std::vector<Pivot> pivots_;
   std::vector<Neighbour> neighbours_;
-  std::vector<double> values_;
+  std::vector<double> values_;     // zero where a block is alone, but for its diagonal block
+  std::vector<char> alone_;        // as set_alone() has it
   std::vector<double> inverse_;    // of pivots
   mutable std::vector<double> x_;  // of a solve, as stored
   double pivot_ratio_ = 1;
