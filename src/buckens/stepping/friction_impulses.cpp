@@ -206,11 +206,11 @@ Vector solve_together(const Matrix& D, const Vector& b, Eigen::Index num_across,
     if (places.settle(P, round % 2 == 0 ? 1.0 : 0.5, kSweepsBetween) && is_good(P)) return P;
   }
   P = smooth;
-  if (places.agree(P) && is_good(P)) return P;
-  P = smooth;
   if (places.settle(P, 1.0, kMostSweeps) && is_good(P)) return P;
   P = smooth;
   if (places.settle(P, 0.5, kMostHalfSweeps) && is_good(P)) return P;
+  P = smooth;
+  if (places.agree(P) && is_good(P)) return P;
   if (places.strike_in_turn(P) && is_good(P)) return P;
   throw StepFailure(
       "no impulses satisfy all rigid contacts with friction that are struck at once: friction "

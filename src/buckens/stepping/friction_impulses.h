@@ -23,9 +23,10 @@ struct ImpactSlip {
 ///
 ///     |P_t| = μ P_n,   P_t = −|P_t| v/|v|,   v = D P − b (I2)
 ///
-/// Each set is solved with the impulses of the other one until both agree. Where that has no end,
-/// place by place (stepping/cone_impulse.h); then blow by blow, which keeps the cones and parts the
-/// bodies, but a place may have rubbed before it stuck.
+/// By Newton's method with sweeps between, place by place (stepping/cone_impulse.h). Where that has
+/// no end, sweeps alone; then each set with the impulses of the other one until both agree; then
+/// blow by blow, which keeps the cones and parts the bodies, but a place may have rubbed before it
+/// stuck.
 /// Places that answer each other are solved together, others by themselves; many of them as in
 /// stepping/large_impact.h.
 /// @param D of all rows, positive semidefinite, @param b of slips: minus the speed of slip before
