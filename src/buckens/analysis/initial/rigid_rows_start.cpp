@@ -175,6 +175,22 @@ bool begins_to_slide(const model::Model& model, const model::State& state) {
   return false;
 }
 
+/// Forces of rigid contacts with friction at the instant. @return whether they have settled, and a
+/// step may go on with them
+/// @throws NumericalError where friction jams: none exist
+bool settle_rough(const model::Model& model, const dynamics::MassMetric& metric,
+                  const std::vector<int>& rows_in_use, RoughContacts& contacts, model::State& state,
+                  Unrest& unrest) {
+  const model::State start = state;
+  if (settle_in_rounds(model, metric, rows_in_use, nullptr, state, unrest)) {
+    if (begins_to_slide(model, state)) contacts.hold_over(RoughContacts::kInstant, state);
+  } else {
+    state = start;
+    if (!settle_in_rounds(model, metric, rows_in_use, &contacts, state, unrest)) return false;
+  }
+  return !contacts.are_sudden(state);
+}
+
 }  // namespace
 
 void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& metric,
@@ -185,14 +201,12 @@ void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& me
   } else {
     const model::State start = state;
     RoughContacts contacts(model, metric, rows_in_use);
-    bool is_settled = settle_in_rounds(model, metric, rows_in_use, nullptr, state, unrest);
-    if (is_settled) {
-      if (begins_to_slide(model, state)) contacts.hold_over(RoughContacts::kInstant, state);
-    } else {
-      state = start;
-      is_settled = settle_in_rounds(model, metric, rows_in_use, &contacts, state, unrest);
+    try {
+      if (settle_rough(model, metric, rows_in_use, contacts, state, unrest)) return;
+    } catch (const NumericalError&) {
+      if (!(start.last_step > 0.0)) throw;
     }
-    if (is_settled && !contacts.are_sudden(state)) return;
+    // At the instant there are none, or such as no step could go on with.
     if (start.last_step > 0.0) {
       state = start;
       contacts.hold_over(start.last_step, state);
