@@ -7,7 +7,6 @@
 #include <new>
 #include <string>
 
-#include <malloc.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -24,8 +23,12 @@ enum Job : int { kBegin = -1, kEnd = -2, kAnalyse = 1, kFactorise = 2, kSolve = 
 constexpr int kNarrow[] = {-8, -9, -14, -15, -17, -20};
 constexpr int kNoMemory[] = {-7, -13, -19, -23};
 constexpr int kNotDefinite[] = {-10, -40};
-// How much is set aside of what the analysis has predicted. What is not used takes no memory.
+// What MUMPS adds to its predictions [%], and how much of them is set aside if the first try fails.
+constexpr int kRelaxation = 20;
 constexpr double kFirstMargin = 1.3, kLastMargin = 6.0;
+// Share of the predicted fronts for which the first try has room. More of them are a process's at
+// the same time where there are more processes; what has no room there goes elsewhere.
+constexpr double kLeastShare = 0.5, kShareAlone = 0.25, kSharePerProcess = 1.0 / 16;
 
 template <int count>
 bool is_among(int code, const int (&codes)[count]) {
@@ -70,10 +73,11 @@ MumpsFactor::MumpsFactor(MPI_Comm comm) : comm_(comm) {
   mumps_.keep[1 - 1] = kNarrowFront;
   int* control = mumps_.icntl - 1;  // numbered as in its guide
   control[1] = control[2] = control[3] = -1;
-  control[4] = 0;    // says nothing
-  control[6] = 0;    // exchanges no columns,
-  control[8] = 0;    // scales none,
-  control[7] = 1;    // and takes our order
+  control[4] = 0;  // says nothing
+  control[6] = 0;  // exchanges no columns,
+  control[8] = 0;  // scales none,
+  control[7] = 1;  // and takes our order
+  control[14] = kRelaxation;
   control[13] = 1;   // the last front is divided like others, not kept square
   control[18] = 3;   // entries are where they are
   control[20] = 10;  // so are right-hand sides
@@ -137,27 +141,42 @@ bool MumpsFactor::make() {
 }
 
 /// Room for the factor and for fronts that wait. MUMPS itself would keep all of it.
-bool MumpsFactor::set_aside(double margin) {
-  const double millions = std::ceil(margin * number(mumps_.info[8 - 1]) / kMillion);
-  int is_there = millions < std::numeric_limits<int>::max() &&
-                 workspace_.set_aside(static_cast<std::size_t>(kMillion * millions));
+bool MumpsFactor::set_aside(double numbers) {
+  const double millions = std::ceil(numbers / kMillion);
+  constexpr double kMost = std::numeric_limits<int>::max();
+  int is_there = millions < kMost && workspace_.set_aside(static_cast<std::size_t>(numbers));
   MPI_Allreduce(MPI_IN_PLACE, &is_there, 1, MPI_INT, MPI_MIN, comm_);
   if (is_there == 0) {
     set_reason("there is too little memory for the factor");
     return false;
   }
   mumps_.wk_user = workspace_.data();
-  mumps_.lwk_user = -static_cast<int>(millions);
+  mumps_.lwk_user = static_cast<int>(numbers <= kMost ? numbers : -std::floor(numbers / kMillion));
   return true;
 }
 
+/// Fronts that wait grow down from the end of what was set aside, the factor up from its beginning,
+/// and the end is what waits no longer: so the less there is, the less of it was ever written to.
+/// MUMPS moves fronts without room elsewhere, but needs it for the one that it works on.
+double MumpsFactor::numbers_at_first() const {
+  int count = 1;
+  MPI_Comm_size(comm_, &count);
+  const double share = std::clamp(kShareAlone + kSharePerProcess * count, kLeastShare, 1.0);
+  constexpr double kAdded = 1.0 + kRelaxation / 100.0;
+  const double all = number(mumps_.info[8 - 1]) / kAdded;
+  const double fronts = number(mumps_.info[20 - 1]) / kAdded;
+  return std::ceil(std::min(all, number(mumps_.info[3 - 1]) + share * fronts) + kMillion / 8);
+}
+
 bool MumpsFactor::factorise() {
-  // Of the analysis and of what came before, while MPI keeps the allocator from doing so.
-  (void)malloc_trim(0);
+  give_memory_back();  // of the analysis and of what came before
+  const double predicted = number(mumps_.info[8 - 1]);
+  double numbers = numbers_at_first();
   for (double margin = kFirstMargin;; margin *= 2) {
-    if (!set_aside(margin)) return false;
+    if (!set_aside(numbers)) return false;
     if (run(kFactorise)) break;
-    if (!is_among(mumps_.infog[0], kNarrow) || margin > kLastMargin) return false;
+    if (!is_among(mumps_.infog[0], kNarrow) || margin > 2 * kLastMargin) return false;
+    numbers = std::ceil(margin * predicted) + kMillion;
   }
   // Where the factor ends: KEEP8(31). Its solves need hardly more.
   workspace_.keep(static_cast<std::size_t>(mumps_.keep8[31 - 1]));

@@ -67,7 +67,8 @@ class MumpsFactor {
  private:
   bool run(int job);
   bool factorise();
-  bool set_aside(double margin);
+  bool set_aside(double numbers);
+  double numbers_at_first() const;
   bool is_positive_definite();
   bool find_variables();
 

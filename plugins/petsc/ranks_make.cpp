@@ -139,6 +139,7 @@ bool Ranks::factorise_together(const Order& order, const BuckensGridMatrix* matr
   const bool is_made = part->factor->make();
   own = {};
   if (matrix != nullptr && matrix->give != nullptr) matrix->give(matrix->source, 0, 0, nullptr);
+  give_memory_back();
   if (has_failed_somewhere(!is_made)) return false;
   find_places(order.size, *part);
   shared_->parts[order.number] = std::move(part);

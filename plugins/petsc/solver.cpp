@@ -8,6 +8,7 @@
 #include <sstream>
 #include <vector>
 
+#include <malloc.h>
 #include <petscblaslapack.h>
 
 namespace buckens_petsc {
@@ -296,6 +297,8 @@ void prepare_blas() {
   std::vector<PetscScalar> a(static_cast<std::size_t>(n) * n, one), b(a);
   BLAStrsm_("L", "L", "N", "U", &n, &n, &one, a.data(), &n, b.data(), &n);
 }
+
+void give_memory_back() { (void)malloc_trim(0); }
 
 KeptErrors::KeptErrors() {
   reason.clear();

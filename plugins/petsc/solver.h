@@ -59,6 +59,9 @@ PetscErrorCode start_petsc();
 /// that of libraries whose errors can be told.
 void prepare_blas();
 
+/// To the system: what was freed, while MPI keeps the allocator from doing so.
+void give_memory_back();
+
 /// While it lives, errors of PETSc are kept instead of printed.
 class KeptErrors {
  public:
