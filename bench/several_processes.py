@@ -26,8 +26,9 @@ ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_R
                "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
 
 
-def peaks(started, known):
-    """Largest memory so far of the processes that serve, by rank [bytes]."""
+def memory_now(started):
+    """Memory of the processes that serve, largest so far and now, by rank [bytes]."""
+    found = {}
     for entry in pathlib.Path("/proc").iterdir():
         try:
             environment = (entry / "environ").read_bytes().split(b"\0")
@@ -37,11 +38,19 @@ def peaks(started, known):
             status = (entry / "status").read_text()
         except (OSError, IndexError):
             continue
-        lines = [line for line in status.splitlines() if line.startswith("VmHWM")]
-        if not lines or "Name:\tbuckens" not in status:
+        values = {line.split(":")[0]: 1024 * int(line.split()[1]) for line in status.splitlines() if line.startswith(("VmHWM", "VmRSS"))}
+        if len(values) < 2 or "Name:\tbuckens" not in status:
             continue
         rank = ranks[0] if ranks else 0
-        known[rank] = max(known.get(rank, 0), 1024 * int(lines[0].split()[1]))
+        before = found.get(rank, (0, 0))
+        found[rank] = (max(before[0], values["VmHWM"]), max(before[1], values["VmRSS"]))
+    return found
+
+
+def number_of_records(out):
+    """So far."""
+    file = out / "sensors.csv"
+    return max(0, len(file.read_text().splitlines()) - 1) if file.exists() else 0
 
 
 def traffic(folder):
@@ -66,19 +75,24 @@ def run(program, side, processes, steps, solver):
             command = ["mpirun", "-n", str(processes), "--bind-to", "none", "--mca", "pml_monitoring_enable", "2",
                        "--mca", "pml_monitoring_enable_output", "3", "--mca", "pml_monitoring_filename", folder + "/sent", *command]
         process = subprocess.Popen(command, env={**ENVIRONMENT, "BUCKENS_BENCH_RUN": folder})
-        memory = {}
+        memory, while_stepping = {}, {}
         while process.poll() is None:
-            peaks(folder, memory)
+            records = number_of_records(out)
+            for rank, (most, now) in memory_now(folder).items():
+                memory[rank] = max(memory.get(rank, 0), most)
+                # Not the end of a run, where its state is saved.
+                if 2 <= records < steps:
+                    while_stepping[rank] = max(while_stepping.get(rank, 0), now)
             time.sleep(0.05)
         if process.returncode != 0:
             raise SystemExit(f"{processes} processes: the program ended with {process.returncode}")
         summary = json.loads((out / "summary.json").read_text())
-        return summary, [memory[rank] for rank in sorted(memory)], traffic(folder)
+        return summary, [[of[rank] for rank in sorted(of)] for of in (memory, while_stepping)], traffic(folder)
 
 
 def measure(program, side, processes, steps, solver):
     few = max(2, steps // 4)
-    short, _, sent_before = run(program, side, processes, few, solver) if processes > 1 else ({}, [], (0, 0))
+    short, _, sent_before = run(program, side, processes, few, solver) if processes > 1 else ({}, [[], []], (0, 0))
     summary, memory, sent = run(program, side, processes, few + steps, solver)
     per_step = [(a - b) / steps for a, b in zip(sent, sent_before)]
     body = summary["bodies"]["cube"]
@@ -87,7 +101,7 @@ def measure(program, side, processes, steps, solver):
             "setup_seconds": summary["wall_seconds"]["setup"],
             "solve_seconds": summary["wall_seconds"]["phases"]["large_solves"] / body["solves"],
             "step_seconds": summary["wall_seconds"]["stepping"] / summary["steps"],
-            "solves": body["solves"], "steps": summary["steps"], "peak_bytes": memory,
+            "solves": body["solves"], "steps": summary["steps"], "peak_bytes": memory[0], "stepping_bytes": memory[1],
             "messages_per_step": per_step[0], "bytes_per_step": per_step[1],
             "solves_per_step": (body["solves"] - (short["bodies"]["cube"]["solves"] if short else 0)) / steps if short else
             body["solves"] / summary["steps"],
@@ -116,7 +130,7 @@ def main():
         rows.sort(key=lambda r: (r["side"], r["processes"], r["solver"]))
         arguments.into.write_text(json.dumps(rows, indent=1) + "\n")
         print("| {variables} | {processes} | {solver} | {setup_seconds:.1f} | {solve_seconds:.3f} | {step_seconds:.3f} | ".format(**row)
-              + ", ".join(f"{m / 1e9:.2f}" for m in row["peak_bytes"])
+              + " | ".join(", ".join(f"{m / 1e9:.2f}" for m in row[key]) for key in ("peak_bytes", "stepping_bytes"))
               + " | {messages_per_step:.0f} | {0:.2f} |".format(row["bytes_per_step"] / 1e6, **row), flush=True)
 
 

@@ -93,6 +93,18 @@ def expect_same_energies(several_, one):
         assert numpy.abs(values - expected[name]).max() < 1e-9 * scale, name
 
 
+def expect_same_stresses(several_, one):
+    """Products with rows that other processes have."""
+    with h5py.File(several_ / "results.h5") as found, h5py.File(one / "results.h5") as expected:
+        bodies = [name for name in expected["bodies"] if "solid_stress" in expected[f"bodies/{name}"]]
+        assert bodies
+        for name in bodies:
+            values = expected[f"bodies/{name}/solid_stress"][()]
+            scale = numpy.abs(values).max()
+            assert scale > 0
+            assert numpy.abs(found[f"bodies/{name}/solid_stress"][()] - values).max() < 1e-9 * scale, name
+
+
 @several
 @pytest.mark.parametrize("count", [2, 3, 4])
 def test_a_large_body_is_distributed(buckens, mpirun, tmp_path, count):
@@ -101,6 +113,7 @@ def test_a_large_body_is_distributed(buckens, mpirun, tmp_path, count):
     must(mpirun(count, "run", "cube.yaml", "-o", "several"))
     assert largest_difference(sensors(tmp_path / "several"), sensors(tmp_path / "one")) < 1e-9
     expect_same_energies(tmp_path / "several", tmp_path / "one")
+    expect_same_stresses(tmp_path / "several", tmp_path / "one")
     with h5py.File(tmp_path / "one" / "results.h5") as one, h5py.File(tmp_path / "several" / "results.h5") as several_:
         names = []
         one.visit(names.append)
@@ -190,6 +203,41 @@ def test_shells(buckens, mpirun, tmp_path):
     assert summary["bodies"]["plate"]["dof"] >= 20000, "large enough to be distributed"
     assert summary["measures"]["messages_per_step"] > 0
     assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < 1e-9
+    expect_same_stresses(tmp_path / "two", tmp_path / "one")
+
+
+@several
+@pytest.mark.parametrize("count", [2, 3, 4])
+def test_kept_solves_of_other_processes_answer(buckens, mpirun, tmp_path, count):
+    """Pairs of loads and answers are there; each run in the same number of processes combines them in the same way."""
+    (tmp_path / "cube.yaml").write_text(CUBE)
+    long = ("--set", "simulation.duration=3 ms")
+    buckens("run", "cube.yaml", "-o", "one", *long).must(0)
+    must(mpirun(count, "run", "cube.yaml", "-o", "several", *long))
+    one, several_ = (json.loads((tmp_path / name / "summary.json").read_text())["bodies"]["cube"] for name in ("one", "several"))
+    assert one["recycled"] >= 15
+    # The same but for loads whose remainder is at its limit.
+    assert abs(several_["recycled"] - one["recycled"]) <= 1
+    assert largest_difference(sensors(tmp_path / "several"), sensors(tmp_path / "one")) < 1e-9
+    expect_same_energies(tmp_path / "several", tmp_path / "one")
+    expect_same_stresses(tmp_path / "several", tmp_path / "one")
+
+
+@several
+def test_a_killed_run_goes_on_in_another_number_of_processes(buckens, mpirun, tmp_path):
+    """One, two, four and one again; those of two are killed. Kept solves are among what is saved."""
+    (tmp_path / "cube.yaml").write_text(CUBE)
+    buckens("run", "cube.yaml", "-o", "out", "--set", "simulation.duration=1 ms", "--set", "simulation.checkpoint=0.2 s").must(0)
+    kill_one(tmp_path, 1, 2, "--continue", "out", "--until", "3", records=15, seconds=240, out=())
+    end = sensors(tmp_path / "out")["t"][-1]
+    must(mpirun(4, "run", "--continue", "out", "--until", end + 1e-3))
+    buckens("run", "--continue", "out", "--until", end + 1.5e-3).must(0)
+    buckens("run", "cube.yaml", "-o", "whole", "--set", f"simulation.duration={end + 1.5e-3} s").must(0)
+    whole, parts = sensors(tmp_path / "whole"), sensors(tmp_path / "out")
+    assert numpy.allclose(whole["t"], parts["t"], rtol=0, atol=1e-12)
+    assert largest_difference(parts, whole) < 1e-9
+    expect_same_energies(tmp_path / "out", tmp_path / "whole")
+    expect_same_stresses(tmp_path / "out", tmp_path / "whole")
 
 
 @several
@@ -223,17 +271,19 @@ def test_messages_and_bytes_of_a_step_are_counted(mpirun, tmp_path, count):
 def test_messages_and_bytes_of_a_factor_are_those_of_one_vector_each_way(mpirun, tmp_path):
     """Right-hand sides go where MUMPS has their rows, and answers come from there.
 
-    Each record asks for the products of its energies by one order: M and K times a vector each, of which the second process has all rows.
+    Each record asks for the products of its energies by one order, M and K times a vector each, and by another for its stresses, all of which
+    the second process has.
     """
     (tmp_path / "cube.yaml").write_text(CUBE)
-    must(mpirun(2, "run", "cube.yaml", "-o", "out"))
+    must(mpirun(2, "run", "cube.yaml", "-o", "out", "--set", "simulation.kept-solves=0"))
     summary = json.loads((tmp_path / "out" / "summary.json").read_text())
     cube = summary["bodies"]["cube"]
     solves = cube["solves"] / summary["steps"]
     records = 1
-    assert summary["measures"]["messages_per_step"] == pytest.approx(5 * solves + 3 * records, rel=1e-12)
+    assert summary["measures"]["messages_per_step"] == pytest.approx(5 * solves + 2 * 3 * records, rel=1e-12)
     order = 56
-    of_products = records * (order + 2 * 2 * 8 * cube["dof"])
+    stresses = 6 * 18**3
+    of_products = records * (2 * order + 2 * 2 * 8 * cube["dof"] + 8 * (cube["dof"] + stresses))
     there = ((summary["measures"]["bytes_per_step"] - of_products) / solves - order - 2 * 4) / (2 * 8)
     assert there == pytest.approx(round(there), abs=1e-6)
     # Subtrees of the order of elimination, which differ in size.
@@ -369,9 +419,9 @@ def started(mpirun_process, rank):
     return None
 
 
-def kill_one(folder, rank, count, model, *options, records, seconds, needs=()):
+def kill_one(folder, rank, count, *arguments, records, seconds, needs=(), out=("-o", "out")):
     """Runs a model on some processes and kills one of them once there are so many records, and the files that it needs."""
-    command = [MPIRUN, "-n", str(count), PROGRAM, "run", model, "-o", "out", "-q", *options]
+    command = [MPIRUN, "-n", str(count), PROGRAM, "run", *arguments, *out, "-q"]
     with open(folder / "told", "w") as told:
         process = subprocess.Popen(command, cwd=folder, env=ENVIRONMENT, stdin=subprocess.DEVNULL, stdout=told, stderr=told)
         try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The factor that several processes share, by the plug-in alone: its order, its answers, and what it cannot factorise."""
+"""What several processes share, by the plug-in alone: a factor, matrices that multiply, and pairs of loads and answers."""
 
 import os
 import pathlib
@@ -13,15 +13,19 @@ from conftest import PROGRAM
 from test_mpi import ENVIRONMENT, MPIRUN, several
 
 PLUGIN = os.environ.get("BUCKENS_GRID_PLUGIN") or pathlib.Path(PROGRAM).resolve().parent.parent / "lib" / "libbuckens_petsc.so"
-SCRIPT = pathlib.Path(__file__).parent / "support" / "shared_factor.py"
+SUPPORT = pathlib.Path(__file__).parent / "support"
 
 
-def factorise(count, *arguments):
-    command = [MPIRUN, "-n", str(count), sys.executable, SCRIPT, PLUGIN, *arguments]
+def call(script, count, *arguments):
+    command = [MPIRUN, "-n", str(count), sys.executable, SUPPORT / script, PLUGIN, *arguments]
     result = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=120, check=False,
                             env=ENVIRONMENT, stdin=subprocess.DEVNULL)
     assert result.returncode == 0, result.stderr
     return dict(line.split(": ", 1) for line in result.stdout.splitlines())
+
+
+def factorise(count, *arguments):
+    return call("shared_factor.py", count, *arguments)
 
 
 @several
@@ -40,3 +44,13 @@ def test_order_and_answers(count):
 def test_a_negative_pivot_is_an_error(negative):
     """Which MUMPS itself passes over; on the first and on the second process."""
     assert factorise(2, negative) == {"error": "the matrix is not positive definite"}
+
+
+@several
+@pytest.mark.parametrize("count", [2, 3, 5])
+def test_matrices_and_pairs_of_the_others(count):
+    """All numbers are whole and small, so that every order of sums gives the same."""
+    found = call("shared_rows.py", count)
+    assert found == {"rows": "0.0", "symmetric": "0.0", "gathered": "True",
+                     "lopsided": "-1 it has entries on one side of the diagonal that are not on the other",
+                     "along": "0.0", "left": "0.0 0.0", "combined": "0.0", "taken": "0.0 0.0"}

@@ -101,6 +101,14 @@ int plugin_divide(int size, const BuckensGridColumns* all, char* error, int erro
   return number;
 }
 
+int plugin_divide_rows(int rows, int columns, const BuckensGridColumns* all, char* error,
+                       int error_size) {
+  if (ranks() == nullptr) set_reason("there are no other processes");
+  const int number = ranks() != nullptr ? ranks()->divide_rows(rows, columns, *all) : -1;
+  if (number < 0) fail(error, error_size);
+  return number;
+}
+
 void plugin_multiply(int count, const int* matrices, const double* const* x, double* const* y) {
   ranks()->multiply(count, matrices, x, y);
 }
@@ -113,10 +121,34 @@ void plugin_forget(int matrix) {
   if (ranks() != nullptr) ranks()->forget(matrix);
 }
 
+int plugin_make_pairs(int rows, int most, char* error, int error_size) {
+  if (ranks() == nullptr) set_reason("there are no other processes");
+  const int number = ranks() != nullptr ? ranks()->make_pairs(rows, most) : -1;
+  if (number < 0) fail(error, error_size);
+  return number;
+}
+
+double plugin_project(int number, int pairs, float* r, float* along) {
+  return ranks()->project(number, pairs, r, along);
+}
+
+void plugin_combine(int number, int pairs, const float* weights, float* sum) {
+  ranks()->combine(number, pairs, weights, sum);
+}
+
+void plugin_put_pair(int number, int pair, const float* load, const float* answer) {
+  ranks()->put_pair(number, pair, load, answer);
+}
+
+void plugin_take_pair(int number, int pair, float* load, float* answer) {
+  ranks()->take_pair(number, pair, load, answer);
+}
+
 const BuckensGridPlugin plugin = {
-    kBuckensGridVersion, plugin_name,     plugin_make,   plugin_solve, plugin_bytes,
-    plugin_release,      plugin_join,     plugin_serve,  plugin_leave, plugin_traffic,
-    plugin_divide,       plugin_multiply, plugin_gather, plugin_forget};
+    kBuckensGridVersion, plugin_name,        plugin_make,     plugin_solve,    plugin_bytes,
+    plugin_release,      plugin_join,        plugin_serve,    plugin_leave,    plugin_traffic,
+    plugin_divide,       plugin_divide_rows, plugin_multiply, plugin_gather,   plugin_forget,
+    plugin_make_pairs,   plugin_project,     plugin_combine,  plugin_put_pair, plugin_take_pair};
 
 }  // namespace
 

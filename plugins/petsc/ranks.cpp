@@ -99,6 +99,7 @@ void Ranks::serve() {
         shared_->parts.erase(order.number);
         break;
       case Task::divide:
+      case Task::divide_rows:
         (void)divide_together(order, nullptr);
         break;
       case Task::multiply:
@@ -108,7 +109,14 @@ void Ranks::serve() {
         gather_together(order, nullptr, nullptr, nullptr);
         break;
       case Task::forget:
-        shared_->matrices.erase(order.number);
+        shared_->forget(order.number);
+        break;
+      case Task::make_pairs:
+      case Task::project:
+      case Task::combine:
+      case Task::put_pair:
+      case Task::take_pair:
+        serve_pairs(order);
         break;
       case Task::leave:
         shared_->parts.clear();

@@ -40,10 +40,19 @@ class Ranks {
   void release(int number);
   /// Of the first: gives a matrix to the others. @return its number, −1 as make()
   int divide(int size, const BuckensGridColumns& all);
+  /// The same of a matrix of any shape, given by rows.
+  int divide_rows(int rows, int columns, const BuckensGridColumns& all);
   /// y_k = A_k x_k
   void multiply(int count, const int* matrices, const double* const* x, double* const* y);
   void gather(int matrix, int* starts, int* rows, double* values);
   void forget(int matrix);
+  /// Of the first: room for pairs of vectors of so many rows. @return its number, −1 as make()
+  int make_pairs(int rows, int most);
+  /// @return ‖r‖²
+  double project(int number, int pairs, float* r, float* along);
+  void combine(int number, int pairs, const float* weights, float* sum);
+  void put_pair(int number, int pair, const float* load, const float* answer);
+  void take_pair(int number, int pair, float* load, float* answer);
   /// Of the first: so far.
   BuckensGridTraffic traffic() const { return traffic_; }
 
@@ -53,6 +62,7 @@ class Ranks {
   struct Shared;
   struct OwnRows;
   struct Divided;
+  struct Pairs;
 
   Ranks();
   void give(const Order& order);
@@ -74,9 +84,23 @@ class Ranks {
   void multiply_together(const Order& order, const double* const* x, double* const* y);
   void ask_for_products(const std::vector<const Divided*>& matrices, const double* const* x,
                         double* const* y);
+  void add_shares(const std::vector<const Divided*>& matrices, const double* from,
+                  double* const* y) const;
   void form_products(const std::vector<const Divided*>& matrices);
+  void put_triangles_together(const Divided& matrix, const std::vector<OwnRows>& parts, int* starts,
+                              int* rows, double* values);
   void gather_together(const Order& order, int* starts, int* rows, double* values);
   bool solve_together(const Order& order, const double* b, double* x, BuckensGridOutcome& outcome);
+  void give_pairs(Task task, int number, int count);
+  void serve_pairs(const Order& order);
+  bool make_pairs_together(const Order& order);
+  void scatter(const Pairs& pairs, const float* whole, float* here);
+  void gather(const Pairs& pairs, const float* here, float* whole);
+  void sum_in_order(std::vector<double>& values);
+  double project_together(Pairs& own, int pairs, float* r, float* along);
+  void combine_together(Pairs& own, int pairs, const float* weights, float* sum);
+  void put_pair_together(Pairs& own, int pair, const float* load, const float* answer);
+  void take_pair_together(Pairs& own, int pair, float* load, float* answer);
   bool has_failed_somewhere(bool has_failed);
 
   MPI_Comm orders_ = MPI_COMM_NULL, work_ = MPI_COMM_NULL;

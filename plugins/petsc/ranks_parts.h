@@ -5,6 +5,8 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <new>
+#include <numeric>
 #include <vector>
 
 #include "mumps_factor.h"
@@ -19,9 +21,15 @@ enum class Task : int {
   measure,
   release,
   divide,
+  divide_rows,
   multiply,
   gather,
   forget,
+  make_pairs,
+  project,
+  combine,
+  put_pair,
+  take_pair,
   leave
 };
 constexpr int kMostMotions = 6;
@@ -30,7 +38,12 @@ constexpr int kMostMotions = 6;
 struct Ranks::Order {
   Task task = Task::leave;
   int number = 0;  // of the solver or matrix
-  int size = 0, block = 1, num_motions = 0, options = 0;
+  int size = 0;
+  union {
+    int block = 1;
+    int columns;  // of a matrix that is not symmetric; pairs, or which of them
+  };
+  int num_motions = 0, options = 0;
   union {
     BuckensGridLimits limits{};                // of a solve
     std::array<int, kBuckensMostProducts> of;  // matrices of products or of a sum, then −1
@@ -60,21 +73,46 @@ struct Ranks::Part {
   }
 };
 
-/// A symmetric matrix of which the first process has nothing, and each other one a run of columns,
-/// which are its rows.
+/// A matrix of which the first process has nothing: of a symmetric one each other has a run of
+/// columns, from the diagonal on, of any other one a run of rows, which are its columns here.
 struct Ranks::Divided {
   int size = 0;
+  bool is_symmetric = true;
   std::vector<int> first, counts;  // columns of the processes, and the end
   std::vector<int> starts, rows;   // of those here; rows are places in `variables`
   std::vector<double> values;
-  std::vector<int> variables;  // ascending, those of which columns here have entries
+  std::vector<int> variables;  // ascending; of a symmetric one they begin with the columns here
   // Of the first process: `variables` of all, one process after the other.
   std::vector<int> lists, list_first, list_counts;
+
+  /// Numbers that a process adds to a product.
+  std::size_t num_results(int rank) const {
+    return is_symmetric ? variables.size() : static_cast<std::size_t>(counts[rank]);
+  }
+  void add_symmetric(int columns, const double* x, double* y) const;
+  void add_rows(int count, const double* x, double* y) const;
+};
+
+/// Pairs of loads and answers, rows of which each process but the first has.
+struct Ranks::Pairs {
+  std::vector<int> first, counts;           // rows of the processes, and the end
+  std::unique_ptr<float[]> loads, answers;  // of those here, pair after pair
+  std::vector<float> row;                   // of one vector
+
+  float* of(const std::unique_ptr<float[]>& all, int pair, int rank) const {
+    return all.get() + static_cast<std::size_t>(pair) * static_cast<std::size_t>(counts[rank]);
+  }
 };
 
 struct Ranks::Shared {
   std::map<int, std::unique_ptr<Part>> parts;  // by number
   std::map<int, std::unique_ptr<Divided>> matrices;
+  std::map<int, std::unique_ptr<Pairs>> pairs;
+
+  void forget(int number) {
+    matrices.erase(number);
+    pairs.erase(number);
+  }
   std::vector<double> sent, received;  // by products
 };
 
@@ -84,5 +122,31 @@ struct Ranks::OwnRows {
   std::vector<int> starts, rows;
   std::vector<double> values, motions;
 };
+
+/// Runs of rows of the processes other than the first, which holds everything else of a body.
+inline std::vector<int> runs_of_others(int size, int count) {
+  std::vector<int> first = {0};
+  for (int k = 0; k < count; ++k) {
+    first.push_back(static_cast<int>(static_cast<long>(size) * k / (count - 1)));
+  }
+  return first;
+}
+
+/// Where the shares of processes begin, and the end.
+inline std::vector<int> starts_of(const std::vector<int>& counts) {
+  std::vector<int> first(counts.size() + 1, 0);
+  std::partial_sum(counts.begin(), counts.end(), first.begin() + 1);
+  return first;
+}
+
+/// Otherwise the reason is set.
+template <class Action>
+bool has_memory_for(Action&& action) try {
+  action();
+  return true;
+} catch (const std::bad_alloc&) {
+  set_reason("there is too little memory for the rows of the matrix");
+  return false;
+}
 
 }  // namespace buckens_petsc

@@ -10,11 +10,11 @@ import ctypes
 import sys
 
 SIZE = 400
-INT, DOUBLE = ctypes.POINTER(ctypes.c_int), ctypes.POINTER(ctypes.c_double)
+INT, DOUBLE, FLOAT = (ctypes.POINTER(kind) for kind in (ctypes.c_int, ctypes.c_double, ctypes.c_float))
 
 
 # Of src/buckens/linalg/grid_plugin.h, whose structures stand below.
-VERSION = 5
+VERSION = 6
 
 
 class Columns(ctypes.Structure):
@@ -47,7 +47,18 @@ class Plugin(ctypes.Structure):
     _fields_ = [("version", ctypes.c_int), ("name", ctypes.c_void_p), ("make", MAKE), ("solve", SOLVE),
                 ("bytes", ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_void_p)), ("release", ctypes.CFUNCTYPE(None, ctypes.c_void_p)),
                 ("join", ctypes.CFUNCTYPE(None, INT, INT)), ("serve", ctypes.CFUNCTYPE(None)), ("leave", ctypes.CFUNCTYPE(None)),
-                ("traffic", ctypes.c_void_p)]
+                ("traffic", ctypes.c_void_p),
+                ("divide", ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_int, ctypes.POINTER(Columns), ctypes.c_char_p, ctypes.c_int)),
+                ("divide_rows", ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_int, ctypes.c_int, ctypes.POINTER(Columns), ctypes.c_char_p,
+                                                 ctypes.c_int)),
+                ("multiply", ctypes.CFUNCTYPE(None, ctypes.c_int, INT, ctypes.POINTER(DOUBLE), ctypes.POINTER(DOUBLE))),
+                ("gather", ctypes.CFUNCTYPE(None, ctypes.c_int, INT, INT, DOUBLE)),
+                ("forget", ctypes.CFUNCTYPE(None, ctypes.c_int)),
+                ("make_pairs", ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_int, ctypes.c_int, ctypes.c_char_p, ctypes.c_int)),
+                ("project", ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_int, ctypes.c_int, FLOAT, FLOAT)),
+                ("combine", ctypes.CFUNCTYPE(None, ctypes.c_int, ctypes.c_int, FLOAT, FLOAT)),
+                ("put_pair", ctypes.CFUNCTYPE(None, ctypes.c_int, ctypes.c_int, FLOAT, FLOAT)),
+                ("take_pair", ctypes.CFUNCTYPE(None, ctypes.c_int, ctypes.c_int, FLOAT, FLOAT))]
 
 
 def column_giver(negative):
@@ -94,8 +105,9 @@ def factorise(plugin, negative):
     plugin.release(factor)
 
 
-def main():
-    library = ctypes.CDLL(sys.argv[1])
+def run(plugin_file, work):
+    """Calls work(plugin) on the first process, while the others serve."""
+    library = ctypes.CDLL(plugin_file)
     library.buckens_grid_plugin.restype = ctypes.POINTER(Plugin)
     plugin = library.buckens_grid_plugin()[0]
     if plugin.version != VERSION:
@@ -105,9 +117,9 @@ def main():
     if rank.value > 0:
         plugin.serve()
         return
-    factorise(plugin, int(sys.argv[2]) if len(sys.argv) > 2 else None)
+    work(plugin)
     plugin.leave()
 
 
 if __name__ == "__main__":
-    main()
+    run(sys.argv[1], lambda plugin: factorise(plugin, int(sys.argv[2]) if len(sys.argv) > 2 else None))

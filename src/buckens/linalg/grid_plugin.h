@@ -7,7 +7,7 @@
 extern "C" {
 
 /// Rises with every change of what stands here.
-enum { kBuckensGridVersion = 5 };
+enum { kBuckensGridVersion = 6 };
 
 /// Products that one order may ask for.
 enum { kBuckensMostProducts = 8 };
@@ -87,12 +87,26 @@ struct BuckensGridPlugin {
   /// Of the first: gives all columns of a symmetric matrix to the other processes, which multiply
   /// by them from then on. Only where there are others. @return its number, -1 after an error
   int (*divide)(int size, const BuckensGridColumns* all, char* error, int error_size);
+  /// The same of a matrix of any shape: `all` are its rows, with columns in place of `rows`. It
+  /// cannot be gathered, nor be a term of a sum.
+  int (*divide_rows)(int rows, int columns, const BuckensGridColumns* all, char* error,
+                     int error_size);
   /// y_k = A_k x_k of divided matrices by one order, at most kBuckensMostProducts.
   void (*multiply)(int count, const int* matrices, const double* const* x, double* const* y);
   /// Brings all columns back into arrays of their length; the processes keep theirs.
   void (*gather)(int matrix, int* starts, int* rows, double* values);
-  /// The others give the memory of a divided matrix back.
-  void (*forget)(int matrix);
+  /// The others give the memory of a divided matrix, or of pairs, back.
+  void (*forget)(int number);
+  /// Of the first: room for `most` pairs of vectors, a load and an answer, of which the other
+  /// processes have the rows. Only where there are others. @return its number, -1 after an error
+  int (*make_pairs)(int rows, int most, char* error, int error_size);
+  /// along_i = c_i r and r = r - sum of along_i c_i, over the loads c_i of the first pairs.
+  /// @return the square of the norm of r
+  double (*project)(int number, int pairs, float* r, float* along);
+  /// The sum of weights_i x_i over the answers x_i of the first pairs.
+  void (*combine)(int number, int pairs, const float* weights, float* sum);
+  void (*put_pair)(int number, int pair, const float* load, const float* answer);
+  void (*take_pair)(int number, int pair, float* load, float* answer);
 };
 
 /// The one function that a plug-in exports.

@@ -25,12 +25,9 @@ namespace buckens::linalg {
 
 namespace {
 
-// Smaller factors are solved faster than vectors are sent.
 constexpr Eigen::Index kWorthSharing = 20000;
 
 int count_of_ranks = 1;
-
-bool is_distributed(Eigen::Index size) { return count_of_ranks > 1 && size >= kWorthSharing; }
 
 std::optional<int> number_in_environment(const char* name) {
   const char* text = std::getenv(name);
@@ -178,15 +175,19 @@ Traffic Ranks::traffic() {
   return {out.messages, out.bytes};
 }
 
+bool is_shared_work(Eigen::Index variables) {
+  return count_of_ranks > 1 && variables >= kWorthSharing;
+}
+
 std::shared_ptr<const Factor> make_large_factor(const SparseMatrix& A) {
-  if (!is_distributed(A.rows())) return make_cholesky(A);
+  if (!is_shared_work(A.rows())) return make_cholesky(A);
   MatrixSum alone;
   alone.add(1.0, A);
   return std::make_shared<const SharedFactor>(alone);
 }
 
 std::shared_ptr<const Factor> make_large_factor_of(const MatrixSum& A) {
-  if (is_distributed(A.size())) return std::make_shared<const SharedFactor>(A);
+  if (is_shared_work(A.size())) return std::make_shared<const SharedFactor>(A);
   return make_cholesky(A.whole());
 }
 

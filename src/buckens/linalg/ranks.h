@@ -48,6 +48,10 @@ class Ranks {
   int rank_ = 0;
 };
 
+/// Whether several processes share the work with so many variables: smaller factors are solved
+/// faster than vectors are sent.
+bool is_shared_work(Eigen::Index variables);
+
 /// What makes the factors of bodies unless they iterate: SparseCholesky in this process, or, where
 /// several share the work and A is large, MUMPS, with the factor distributed over all. No process
 /// then holds more of A than the rows of one of them.

@@ -2,7 +2,6 @@
 #include "buckens/linalg/recycled_solves.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace buckens::linalg {
@@ -31,16 +30,10 @@ RecycledSolves::RecycledSolves(const Vector& inverse_diagonal, int most)
     : parts_(inverse_diagonal.size()),
       most_(std::max(most, 0)),
       scale_(inverse_diagonal.cwiseSqrt().cast<float>()),
-      sums_(static_cast<std::size_t>(parts_.count())) {
-  // Pages of memory come into being as they are written to.
-  loads_.resize(rows() * most_);
-  answers_.resize(rows() * most_);
+      pairs_(make_kept_pairs(rows(), most_)),
+      squares_(static_cast<std::size_t>(parts_.count())) {
   scores_.reserve(static_cast<std::size_t>(most_));
   made_.reserve(static_cast<std::size_t>(most_));
-  for (PartSums& sums : sums_) {
-    sums.products.resize(most_);
-    sums.along.resize(most_);
-  }
   along_.resize(most_);
 }
 
@@ -55,59 +48,20 @@ void RecycledSolves::begin(const Vector& f, Request& request, TaskPool* pool) {
 }
 
 double RecycledSolves::norm(const VectorXf& load, TaskPool* pool) {
-  for (PartSums& sums : sums_) sums.square = 0;
+  std::fill(squares_.begin(), squares_.end(), 0.0);
   parts_.for_pieces(pool, [&](int part, Index first, Index size) {
     const auto piece = load.segment(first, size);
-    sums_[static_cast<std::size_t>(part)].square += static_cast<double>(piece.squaredNorm());
+    squares_[static_cast<std::size_t>(part)] += static_cast<double>(piece.squaredNorm());
   });
   double square = 0;
-  for (const PartSums& sums : sums_) square += sums.square;
+  for (const double part : squares_) square += part;
   return std::sqrt(square);
 }
 
 double RecycledSolves::project(Request& request, TaskPool* pool) {
-  const Index m = num_pairs();
-  for (PartSums& sums : sums_) {
-    sums.along.setZero();
-    sums.square = 0;
-  }
-  parts_.for_pieces(pool, [&](int part, Index first, Index size) {
-    PartSums& sums = sums_[static_cast<std::size_t>(part)];
-    sums.products.head(m).noalias() =
-        block(loads_, first, size).transpose() * request.remainder.segment(first, size);
-    sums.along.head(m) += sums.products.head(m).cast<double>();
-  });
-  for (Index i = 0; i < m; ++i) {
-    double sum = 0;
-    for (const PartSums& sums : sums_) sum += sums.along[i];
-    along_[i] = static_cast<float>(sum);
-  }
-  request.weights.head(m) += along_.head(m);
-  parts_.for_pieces(pool, [&](int part, Index first, Index size) {
-    auto r = request.remainder.segment(first, size);
-    r.noalias() -= block(loads_, first, size) * along_.head(m);
-    sums_[static_cast<std::size_t>(part)].square += static_cast<double>(r.squaredNorm());
-  });
-  double square = 0;
-  for (const PartSums& sums : sums_) square += sums.square;
-  return std::sqrt(square);
-}
-
-void RecycledSolves::combine(const Request& request, Vector& x, bool adds, TaskPool* pool) const {
-  const Index m = num_pairs();
-  parts_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
-    // A piece of x in single precision, where the cache holds it.
-    std::array<float, RowParts::kPiece> room;
-    Eigen::Map<VectorXf> sum(room.data(), size);
-    sum.noalias() = block(answers_, first, size) * request.weights.head(m);
-    auto to = x.segment(first, size);
-    const auto scaled = sum.cwiseProduct(scale_.segment(first, size)).cast<double>();
-    if (adds) {
-      to += scaled;
-    } else {
-      to = scaled;
-    }
-  });
+  const double left = pairs_->project(num_pairs(), request.remainder, along_, pool);
+  request.weights.head(num_pairs()) += along_.head(num_pairs());
+  return left;
 }
 
 bool RecycledSolves::answer(Vector& f, double limit, Request& request, TaskPool* pool) {
@@ -115,7 +69,7 @@ bool RecycledSolves::answer(Vector& f, double limit, Request& request, TaskPool*
   if (most_ == 0 || asleep_for_ > 0) return false;
   begin(f, request, pool);
   if (project(request, pool) <= limit) {
-    combine(request, f, false, pool);
+    pairs_->combine(num_pairs(), request.weights, scale_, false, f, pool);
     request.fate = Request::Fate::answered;
     return true;
   }
@@ -136,7 +90,7 @@ void RecycledSolves::complete(Request& request, Vector& x, TaskPool* pool) const
     request.answer.segment(first, size) =
         x.segment(first, size).cast<float>().cwiseQuotient(scale_.segment(first, size));
   });
-  combine(request, x, true, pool);
+  pairs_->combine(num_pairs(), request.weights, scale_, true, x, pool);
 }
 
 void RecycledSolves::learn(std::span<Request* const> requests, TaskPool* pool) {
@@ -162,30 +116,16 @@ void RecycledSolves::keep(Request& request, TaskPool* pool) {
   double size = norm(request.remainder, pool);
   const double least = kLeastNew * size;
   if (!made_.empty()) {
-    for (const int pair : made_) separate(request, pair, pool);
+    for (const int pair : made_) {
+      pairs_->separate(pair, request.remainder, request.answer, pool);
+    }
     size = norm(request.remainder, pool);
   }
   if (!std::isfinite(size) || size <= least || static_cast<int>(made_.size()) == most_) return;
   const int pair = free_pair();
-  store(request, size, pair, pool);
+  scores_[index(pair)] = size;
+  pairs_->put(pair, static_cast<float>(1.0 / size), request.remainder, request.answer, pool);
   made_.push_back(pair);
-}
-
-void RecycledSolves::separate(Request& request, int pair, TaskPool* pool) {
-  for (PartSums& sums : sums_) sums.square = 0;
-  parts_.for_pieces(pool, [&](int part, Index first, Index size) {
-    const float product =
-        loads_.segment(place(pair, first, size), size).dot(request.remainder.segment(first, size));
-    sums_[static_cast<std::size_t>(part)].square += static_cast<double>(product);
-  });
-  double sum = 0;
-  for (const PartSums& sums : sums_) sum += sums.square;
-  const auto along = static_cast<float>(sum);
-  parts_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
-    const Index at = place(pair, first, size);
-    request.remainder.segment(first, size) -= along * loads_.segment(at, size);
-    request.answer.segment(first, size) -= along * answers_.segment(at, size);
-  });
 }
 
 int RecycledSolves::free_pair() {
@@ -199,16 +139,6 @@ int RecycledSolves::free_pair() {
     if (least < 0 || scores_[index(pair)] < scores_[index(least)]) least = pair;
   }
   return least;
-}
-
-void RecycledSolves::store(const Request& request, double norm, int pair, TaskPool* pool) {
-  scores_[index(pair)] = norm;
-  const auto scale = static_cast<float>(1.0 / norm);
-  parts_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
-    const Index at = place(pair, first, size);
-    loads_.segment(at, size) = scale * request.remainder.segment(first, size);
-    answers_.segment(at, size) = scale * request.answer.segment(first, size);
-  });
 }
 
 void RecycledSolves::note_use(const Request& request) {
@@ -243,24 +173,19 @@ void RecycledSolves::visit_saved(const base::SaveVisit& visit) {
   }
   for (int pair = 0; pair < num_pairs(); ++pair) {
     const base::SaveVisit one = visit.inside(static_cast<std::size_t>(pair));
-    visit_pair(one, "load", loads_, pair);
-    visit_pair(one, "answer", answers_, pair);
+    visit_pair(one, pair);
   }
 }
 
-void RecycledSolves::visit_pair(const base::SaveVisit& visit, const std::string& name,
-                                VectorXf& pairs, int pair) {
-  Vector values(rows());
-  if (!visit.is_restoring()) {
-    parts_.for_pieces(nullptr, [&](int /*part*/, Index first, Index size) {
-      values.segment(first, size) = pairs.segment(place(pair, first, size), size).cast<double>();
-    });
-  }
-  visit.vector(name, values, rows());
+void RecycledSolves::visit_pair(const base::SaveVisit& visit, int pair) {
+  VectorXf kept_load, kept_answer;
+  if (!visit.is_restoring()) pairs_->take(pair, kept_load, kept_answer);
+  Vector load = kept_load.cast<double>();
+  Vector answer = kept_answer.cast<double>();
+  visit.vector("load", load, rows());
+  visit.vector("answer", answer, rows());
   if (!visit.is_restoring()) return;
-  parts_.for_pieces(nullptr, [&](int /*part*/, Index first, Index size) {
-    pairs.segment(place(pair, first, size), size) = values.segment(first, size).cast<float>();
-  });
+  pairs_->put(pair, 1.0F, load.cast<float>(), answer.cast<float>(), nullptr);
 }
 
 }  // namespace buckens::linalg

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "buckens/base/saved_values.h"
 #include "buckens/base/task_pool.h"
+#include "buckens/linalg/kept_pairs.h"
 #include "buckens/linalg/matrix_types.h"
 #include "buckens/linalg/row_parts.h"
 
@@ -59,46 +61,25 @@ class RecycledSolves {
   void visit_saved(const base::SaveVisit& visit);
 
  private:
-  using ConstBlock = Eigen::Map<const Eigen::MatrixXf>;
-  /// Of one part of the rows.
-  struct PartSums {
-    Eigen::VectorXf products;  // of one piece
-    Vector along;
-    double square = 0;
-  };
-
   Eigen::Index rows() const { return scale_.size(); }
-  /// Rows `first` … `first + size` of all pairs.
-  ConstBlock block(const Eigen::VectorXf& pairs, Eigen::Index first, Eigen::Index size) const {
-    return {pairs.data() + first * most_, size, num_pairs()};
-  }
-  /// Where a piece of a pair lies in a vector of pairs.
-  Eigen::Index place(Eigen::Index pair, Eigen::Index first, Eigen::Index size) const {
-    return first * most_ + pair * size;
-  }
   void begin(const Vector& f, Request& request, TaskPool* pool);
   /// Takes from the remainder what lies along the pairs. @return ‖r‖
   double project(Request& request, TaskPool* pool);
-  void combine(const Request& request, Vector& x, bool adds, TaskPool* pool) const;
   void note_use(const Request& request);
   void note_outcome(bool is_answered);
   void keep(Request& request, TaskPool* pool);
-  /// Takes from a request what the pair holds of it.
-  void separate(Request& request, int pair, TaskPool* pool);
   double norm(const Eigen::VectorXf& load, TaskPool* pool);
   int free_pair();
-  void store(const Request& request, double norm, int pair, TaskPool* pool);
-  void visit_pair(const base::SaveVisit& visit, const std::string& name, Eigen::VectorXf& pairs,
-                  int pair);
+  void visit_pair(const base::SaveVisit& visit, int pair);
 
   RowParts parts_;
   int most_;
-  Eigen::VectorXf scale_;            // 1/√Aⱼⱼ
-  Eigen::VectorXf loads_, answers_;  // pairs, scaled by 1/√Aⱼⱼ and √Aⱼⱼ, piece by piece of rows
-  std::vector<double> scores_;  // of the pairs: use, fading
-  std::vector<PartSums> sums_;  // per part
-  Eigen::VectorXf along_;       // of one projection
-  std::vector<int> made_;       // pairs made in one call of learn()
+  Eigen::VectorXf scale_;             // 1/√Aⱼⱼ
+  std::unique_ptr<KeptPairs> pairs_;  // scaled by 1/√Aⱼⱼ and √Aⱼⱼ
+  std::vector<double> scores_;        // of the pairs: use, fading
+  std::vector<double> squares_;       // per part of the rows
+  Eigen::VectorXf along_;             // of one projection
+  std::vector<int> made_;             // pairs made in one call of learn()
   long tried_ = 0, answered_ = 0, asleep_for_ = 0;
 };
 

@@ -144,18 +144,19 @@ SolidRecovery::SolidRecovery(const FeModel& fe) {
     if (block->is_solid()) num_solids_ += block->num_elements();
     if (block->is_shell()) num_shells_ += block->num_elements();
   }
-  rows_.resize(6 * num_solids_ + 12 * num_shells_, fe.dofs.num_dofs);
-  int* starts = rows_.outerIndexPtr();
-  std::fill_n(starts, rows_.rows() + 1, 0);
+  linalg::SparseRows::RowMajor rows(6 * num_solids_ + 12 * num_shells_, fe.dofs.num_dofs);
+  int* starts = rows.outerIndexPtr();
+  std::fill_n(starts, rows.rows() + 1, 0);
   visit_stress_rows(fe, num_solids_,
                     [&](const linalg::Triplet& entry) { ++starts[entry.row() + 1]; });
-  std::partial_sum(starts, starts + rows_.rows() + 1, starts);
-  rows_.resizeNonZeros(starts[rows_.rows()]);
+  std::partial_sum(starts, starts + rows.rows() + 1, starts);
+  rows.resizeNonZeros(starts[rows.rows()]);
   int place = 0;
   visit_stress_rows(fe, num_solids_, [&](const linalg::Triplet& entry) {
-    rows_.innerIndexPtr()[place] = entry.col();
-    rows_.valuePtr()[place++] = entry.value();
+    rows.innerIndexPtr()[place] = entry.col();
+    rows.valuePtr()[place++] = entry.value();
   });
+  rows_ = linalg::SparseRows(std::move(rows));
 }
 
 linalg::Matrix SolidRecovery::stresses(const linalg::Vector& d) const {

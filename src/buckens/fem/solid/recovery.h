@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "buckens/fem/fe_model.h"
+#include "buckens/linalg/sparse_rows.h"
 
 namespace buckens::fem {
 
@@ -48,7 +49,7 @@ class SolidRecovery {
   linalg::Matrix stresses(const linalg::Vector& d) const;
 
  private:
-  Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;  // 6 per solid, 12 per shell
+  linalg::SparseRows rows_;  // 6 per solid, 12 per shell
   int num_solids_ = 0;
   int num_shells_ = 0;
 };

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/linalg/divided_pairs.h"
+
+#include <array>
+#include <cmath>
+#include <mutex>
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+#include "buckens/linalg/grid_library.h"
+#include "buckens/linalg/ranks.h"
+
+namespace buckens::linalg {
+
+using Eigen::VectorXf;
+
+DividedPairs::DividedPairs(Eigen::Index rows, int most) : rows_(rows) {
+  std::array<char, 400> error{};
+  const std::scoped_lock lock(turn_of_grid_solver());
+  number_ = grid_solver().make_pairs(static_cast<int>(rows), most, error.data(),
+                                     static_cast<int>(error.size()));
+  if (number_ >= 0) return;
+  throw NumericalError(
+      fmt::format("kept solves of {} equations on {} processes: {}; use more memory, or fewer "
+                  "kept-solves",
+                  rows, Ranks::count(), error.data()));
+}
+
+DividedPairs::~DividedPairs() {
+  const std::scoped_lock lock(turn_of_grid_solver());
+  grid_solver().forget(number_);
+}
+
+double DividedPairs::project(int pairs, VectorXf& r, VectorXf& along, TaskPool* /*pool*/) {
+  const std::scoped_lock lock(turn_of_grid_solver());
+  return std::sqrt(grid_solver().project(number_, pairs, r.data(), along.data()));
+}
+
+void DividedPairs::combine(int pairs, const VectorXf& weights, const VectorXf& scale, bool adds,
+                           Vector& x, TaskPool* /*pool*/) const {
+  VectorXf sum(rows_);
+  {
+    const std::scoped_lock lock(turn_of_grid_solver());
+    grid_solver().combine(number_, pairs, weights.data(), sum.data());
+  }
+  if (!adds) x.setZero(rows_);
+  x += sum.cwiseProduct(scale).cast<double>();
+}
+
+void DividedPairs::separate(int pair, VectorXf& load, VectorXf& answer, TaskPool* /*pool*/) {
+  VectorXf c, x;
+  take(pair, c, x);
+  const auto along = static_cast<float>(c.cast<double>().dot(load.cast<double>()));
+  load -= along * c;
+  answer -= along * x;
+}
+
+void DividedPairs::put(int pair, float scale, const VectorXf& load, const VectorXf& answer,
+                       TaskPool* /*pool*/) {
+  const VectorXf c = scale * load;
+  const VectorXf x = scale * answer;
+  const std::scoped_lock lock(turn_of_grid_solver());
+  grid_solver().put_pair(number_, pair, c.data(), x.data());
+}
+
+void DividedPairs::take(int pair, VectorXf& load, VectorXf& answer) const {
+  load.resize(rows_);
+  answer.resize(rows_);
+  const std::scoped_lock lock(turn_of_grid_solver());
+  grid_solver().take_pair(number_, pair, load.data(), answer.data());
+}
+
+}  // namespace buckens::linalg

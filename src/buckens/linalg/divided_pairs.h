@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/linalg/kept_pairs.h"
+
+namespace buckens::linalg {
+
+/// Pairs whose rows the other processes have (ranks.h), each a run of them.
+class DividedPairs final : public KeptPairs {
+ public:
+  /// @throws NumericalError if memory is too small
+  DividedPairs(Eigen::Index rows, int most);
+  ~DividedPairs() override;
+  DividedPairs(const DividedPairs&) = delete;
+  DividedPairs& operator=(const DividedPairs&) = delete;
+
+  double project(int pairs, Eigen::VectorXf& r, Eigen::VectorXf& along, TaskPool* pool) override;
+  void combine(int pairs, const Eigen::VectorXf& weights, const Eigen::VectorXf& scale, bool adds,
+               Vector& x, TaskPool* pool) const override;
+  void separate(int pair, Eigen::VectorXf& load, Eigen::VectorXf& answer, TaskPool* pool) override;
+  void put(int pair, float scale, const Eigen::VectorXf& load, const Eigen::VectorXf& answer,
+           TaskPool* pool) override;
+  void take(int pair, Eigen::VectorXf& load, Eigen::VectorXf& answer) const override;
+
+ private:
+  Eigen::Index rows_;
+  int number_ = -1;
+};
+
+}  // namespace buckens::linalg

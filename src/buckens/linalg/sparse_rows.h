@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "buckens/linalg/matrix_types.h"
+
+namespace buckens::linalg {
+
+/// A sparse matrix of any shape that multiplies vectors and does nothing else, such as the one that
+/// makes stresses of displacements.
+///
+/// Where several processes share the work and it is large, those other than the first have its rows
+/// (ranks.h) from the beginning. In a process by itself products are those of Eigen.
+class SparseRows {
+ public:
+  using RowMajor = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+  SparseRows() = default;
+  /// @param A is empty afterwards
+  /// @throws NumericalError if memory is too small
+  explicit SparseRows(RowMajor&& A);
+
+  Eigen::Index rows() const { return rows_; }
+  /// A x
+  Vector operator*(const Vector& x) const;
+
+ private:
+  class Elsewhere;
+
+  Eigen::Index rows_ = 0;
+  RowMajor here_;  // empty where other processes have them
+  std::shared_ptr<const Elsewhere> elsewhere_;
+};
+
+}  // namespace buckens::linalg
