@@ -26,9 +26,9 @@ constexpr int kNotDefinite[] = {-10, -40};
 // What MUMPS adds to its predictions [%], and how much of them is set aside if the first try fails.
 constexpr int kRelaxation = 20;
 constexpr double kFirstMargin = 1.3, kLastMargin = 6.0;
-// Share of the predicted fronts for which the first try has room. More of them are a process's at
-// the same time where there are more processes; what has no room there goes elsewhere.
-constexpr double kLeastShare = 0.5, kShareAlone = 0.25, kSharePerProcess = 1.0 / 16;
+// Share of the predicted fronts for which the first try has room on two processes; what has no room
+// there goes elsewhere. On four, half was too little for 292 008 variables.
+constexpr double kShareOfTwo = 0.5;
 
 template <int count>
 bool is_among(int code, const int (&codes)[count]) {
@@ -161,7 +161,7 @@ bool MumpsFactor::set_aside(double numbers) {
 double MumpsFactor::numbers_at_first() const {
   int count = 1;
   MPI_Comm_size(comm_, &count);
-  const double share = std::clamp(kShareAlone + kSharePerProcess * count, kLeastShare, 1.0);
+  const double share = count == 2 ? kShareOfTwo : 1.0;
   constexpr double kAdded = 1.0 + kRelaxation / 100.0;
   const double all = number(mumps_.info[8 - 1]) / kAdded;
   const double fronts = number(mumps_.info[20 - 1]) / kAdded;
