@@ -253,6 +253,32 @@ void append_mix(const loads::ForceElement& element, const loads::Sight& sight, S
   out.first_of_mix.push_back(static_cast<int>(out.rows.size()));
 }
 
+void SoftRows::clear() {
+  regimes.clear();
+  clear_rows(rows);
+  stiffness.clear();
+  damping.clear();
+  rigid.clear();
+  is_closed.clear();
+  mixes.clear();
+  first_of_mix.clear();
+}
+
+void append_rows(const SoftRows& from, SoftRows& to) {
+  const auto append = [](const auto& some, auto& out) {
+    out.insert(out.end(), some.begin(), some.end());
+  };
+  const int first = static_cast<int>(to.rows.size());
+  for (const int mixed : from.first_of_mix) to.first_of_mix.push_back(first + mixed);
+  append(from.mixes, to.mixes);
+  append(from.rows, to.rows);
+  append(from.stiffness, to.stiffness);
+  append(from.damping, to.damping);
+  append(from.rigid, to.rigid);
+  append(from.is_closed, to.is_closed);
+  append(from.regimes, to.regimes);
+}
+
 void give_nothing(std::vector<loads::SoftRow>& rows) {
   for (loads::SoftRow& row : rows) {
     row.stiffness = row.damping = 0.0;
@@ -267,16 +293,10 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
 
 void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                         const Circumstances& given, SoftRows& out, const ReactionSlopes* followers,
-                        std::vector<ReactionSlope>* slopes, const JointSet* at_joints) {
+                        std::vector<ReactionSlope>* slopes, const JointSet* at_joints,
+                        const std::vector<SoftRows>* of_laws) {
   const Circumstances around = with_signals(model, motions, t, given, out.signals);
-  out.regimes.clear();
-  clear_rows(out.rows);
-  out.stiffness.clear();
-  out.damping.clear();
-  out.rigid.clear();
-  out.is_closed.clear();
-  out.mixes.clear();
-  out.first_of_mix.clear();
+  out.clear();
   if (slopes != nullptr) slopes->clear();
   std::vector<loads::SoftRow>& rows = out.of_one;
   EndsInTurn in_turn(model, motions, around.memory);
@@ -284,7 +304,11 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
     const model::Load& load = model.loads[k];
     if (load.element->num_soft_rows() == 0) continue;
     if (at_joints != nullptr && at_joints->laws()[k] != 0) {
-      at_joints->append_soft_rows(k, motions, t, around, out, slopes);
+      if (of_laws != nullptr) {
+        append_rows((*of_laws)[at_joints->number_of(k)], out);
+      } else {
+        at_joints->append_soft_rows(k, motions, t, around, out, slopes);
+      }
       continue;
     }
     if (is_open_place(model, k, around)) {
@@ -295,9 +319,11 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
     rows.clear();
     const loads::Sight sight = sight_of(model, k, t, around, ends);
     const bool is_off = around.memory != nullptr && around.memory->is_off(k);
+    int regime = 0;
     citing(load, [&] {
       if (has_regimes(load) && !is_off) {
-        out.regimes.push_back(load.element->append_tangent_in_regime(sight, rows));
+        regime = load.element->append_tangent_in_regime(sight, rows);
+        out.regimes.push_back(regime);
         return;
       }
       load.element->append_tangent(sight, rows);
@@ -305,7 +331,7 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
       if (has_regimes(load)) out.regimes.push_back(0);
     });
     if (followers != nullptr && !is_off) {
-      followers->append(k, static_cast<int>(out.rows.size()), sight, around, ends.travels(),
+      followers->append(k, static_cast<int>(out.rows.size()), regime, sight, around, ends.travels(),
                         *slopes);
     }
     if (!is_off && load.coordinate >= 0 && load.element->uses_signals()) {

@@ -89,6 +89,9 @@ struct SoftRows {
   std::vector<loads::SoftRow> of_one;  ///< scratch
   std::vector<loads::TwistRow> of_others;
   SignalValues signals, shifted;  ///< at the instant; scratch
+
+  /// Forgets all rows and what belongs to them.
+  void clear();
 };
 /// Calls f(i, j, share) for all rows that act, the share of what row j alone would give that row i
 /// gives: rows that act alone, share 1, and those of mixes.
@@ -112,11 +115,15 @@ void for_shares(const SoftRows& soft, F&& f) {
 /// @param followers null, or forces that grow with reactions: `slopes` says how, in the order of
 /// the rows
 /// @param at_joints null, or evaluates the laws that it has with their joints
+/// @param of_laws null, or the rows of these laws, JointSet::Laws::soft; their slopes are left out
 void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                         const Circumstances& around, SoftRows& out,
                         const ReactionSlopes* followers = nullptr,
                         std::vector<ReactionSlope>* slopes = nullptr,
-                        const JointSet* at_joints = nullptr);
+                        const JointSet* at_joints = nullptr,
+                        const std::vector<SoftRows>* of_laws = nullptr);
+/// Appends rows, as they are, to others.
+void append_rows(const SoftRows& from, SoftRows& to);
 /// Appends how the rows of an element that come next act together, if they do.
 void append_mix(const loads::ForceElement& element, const loads::Sight& sight, SoftRows& out);
 /// Rows of what is switched off stay in their places, since the number of rows is constant.

@@ -279,6 +279,7 @@ void JointSet::evaluate(const std::vector<BodyMotion>& motions, double t,
       memory != nullptr && memory->rows.size() > 0 ? memory->rows.data() : nullptr;
   for (linalg::Vector* values : {&out.g, &out.g_dot, &out.g_t}) values->resize(num_rows_);
   if (with != nullptr && with->slopes != nullptr) with->slopes->clear();
+  if (with != nullptr && with->soft != nullptr) with->soft->resize(laws_.size());
   std::array<Wrench, kMostRows> units;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const Joint& joint = joints_[j];
@@ -293,18 +294,18 @@ void JointSet::evaluate(const std::vector<BodyMotion>& motions, double t,
       evaluate_slider(*joint.slider, motions, t, memory, out, lambda, forces);
       continue;
     }
-    const Motion F = motion_of(joint.first, motions);
-    const Motion M = motion_of(joint.second, motions);
+    Look look{motion_of(joint.first, motions), motion_of(joint.second, motions), {}, {}};
     JointWrenches wrenches;
     Wrench* const filled = has_laws && with->slopes != nullptr ? units.data() : nullptr;
-    if (!is_released) wrenches = evaluate_rows(j, F, M, t, states, lambda, out, filled);
+    if (!is_released) wrenches = evaluate_rows(j, look.F, look.M, t, states, lambda, out, filled);
     if (forces == nullptr) continue;
     if (has_laws) {
-      const Markers markers{F.marker(joint.first), M.marker(joint.second)};
-      act(joint, markers, t, *with, is_released ? nullptr : filled, wrenches, *forces);
+      look.first = look.F.marker(joint.first);
+      look.second = look.M.marker(joint.second);
+      act(joint, look, t, *with, is_released ? nullptr : filled, wrenches, *forces);
     }
-    add_wrench(joint.first, F, wrenches.on_first, *forces);
-    add_wrench(joint.second, M, wrenches.on_second, *forces);
+    add_wrench(joint.first, look.F, wrenches.on_first, *forces);
+    add_wrench(joint.second, look.M, wrenches.on_second, *forces);
   }
 }
 

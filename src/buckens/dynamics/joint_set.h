@@ -41,6 +41,8 @@ class JointSet {
     const Circumstances& around;  ///< with the memory and λ of the joints
     /// Not null: how their forces grow with the multipliers, in the order of the soft rows.
     std::vector<ReactionSlope>* slopes = nullptr;
+    /// Not null: their soft rows, one entry per law, see number_of().
+    std::vector<SoftRows>* soft = nullptr;
   };
 
   /// Residuals of all rows. With multipliers, the forces Gᵀλ are added: the rows of a joint act on
@@ -54,6 +56,9 @@ class JointSet {
                 Forces* forces = nullptr, const Laws* with = nullptr) const;
   /// Of each load of the model, whether it is a law that is evaluated with its joint.
   const std::vector<char>& laws() const { return is_law_; }
+  bool has_laws() const { return !laws_.empty(); }
+  /// The number of a load among them.
+  std::size_t number_of(std::size_t load) const { return law_of_load_[load]; }
 
   /// Appends the soft rows of one of laws(), as evaluate_soft_rows() does.
   /// @param slopes null, or how their forces grow with multipliers
@@ -127,17 +132,23 @@ class JointSet {
   JointWrenches evaluate_rows(std::size_t joint, const Motion& F, const Motion& M, double t,
                               const double* states, const linalg::Vector* lambda,
                               JointResiduals& out, spatial::Wrench* units) const;
-  struct Markers {
+  /// Both ends of a joint and its markers.
+  struct Look {
+    Motion F, M;
     spatial::MarkerMotion first, second;
   };
   struct LawView;
   LawView view(std::size_t load, const std::vector<BodyMotion>& motions, double t,
                const Circumstances& around, spatial::Wrench* units) const;
   /// Adds what the laws of a joint do.
-  void act(const Joint& joint, const Markers& markers, double t, const Laws& with,
+  void act(const Joint& joint, const Look& look, double t, const Laws& with,
            const spatial::Wrench* units, JointWrenches& wrenches, Forces& forces) const;
+  /// Appends the soft rows of a law. @return its regime
+  int append_tangent(const Joint& joint, const Law& law, const Look& look,
+                     const loads::Sight& sight, bool is_off, SoftRows& out) const;
   static void append_slopes(const Joint& joint, const Law& law, const loads::Sight& sight,
-                            const spatial::Wrench* units, std::vector<ReactionSlope>& out);
+                            int regime, const spatial::Wrench* units,
+                            std::vector<ReactionSlope>& out);
 
   void evaluate_coupler(const Joint& joint, const std::vector<BodyMotion>& motions, double t,
                         const model::RowMemory* memory, JointResiduals& out,

@@ -49,8 +49,7 @@ void JointSet::take_laws() {
 struct JointSet::LawView {
   const Law& law;
   const Joint& joint;
-  Motion F, M;
-  Markers markers;
+  Look look;
   Wrench reaction;
   bool is_released;
 };
@@ -60,14 +59,12 @@ JointSet::LawView JointSet::view(std::size_t load, const std::vector<BodyMotion>
                                  const Circumstances& around, Wrench* units) const {
   const auto j = static_cast<std::size_t>(model_.loads[load].joint);
   const Joint& joint = joints_[j];
+  const Motion F = motion_of(joint.first, motions), M = motion_of(joint.second, motions);
   LawView out{laws_[law_of_load_[load]],
               joint,
-              motion_of(joint.first, motions),
-              motion_of(joint.second, motions),
-              {},
+              {F, M, F.marker(joint.first), M.marker(joint.second)},
               {},
               around.memory != nullptr && around.memory->is_released(j)};
-  out.markers = {out.F.marker(joint.first), out.M.marker(joint.second)};
   const bool has_reaction = around.lambda != nullptr && around.lambda->size() > 0;
   if (out.is_released || (!has_reaction && units == nullptr)) return out;
   thread_local JointResiduals unused;  // kept, so that steps allocate nothing
@@ -75,48 +72,54 @@ JointSet::LawView JointSet::view(std::size_t load, const std::vector<BodyMotion>
   const double* const states = around.memory != nullptr && around.memory->rows.size() > 0
                                    ? around.memory->rows.data()
                                    : nullptr;
-  out.reaction = evaluate_rows(j, out.F, out.M, t, states, has_reaction ? around.lambda : nullptr,
-                               unused, units)
-                     .on_second;
+  out.reaction =
+      evaluate_rows(j, F, M, t, states, has_reaction ? around.lambda : nullptr, unused, units)
+          .on_second;
   return out;
 }
 
 void JointSet::append_soft_rows(std::size_t load, const std::vector<BodyMotion>& motions, double t,
                                 const Circumstances& around, SoftRows& out,
                                 std::vector<ReactionSlope>* slopes) const {
-  const model::Load& own = model_.loads[load];
   std::array<Wrench, kMostRows> units;
   const LawView seen = view(load, motions, t, around, slopes != nullptr ? units.data() : nullptr);
-  const loads::Sight sight = sight_at_joint(model_, load, t, around, seen.markers.first,
-                                            seen.markers.second, seen.reaction);
+  const loads::Sight sight =
+      sight_at_joint(model_, load, t, around, seen.look.first, seen.look.second, seen.reaction);
   const bool is_off = around.memory != nullptr && around.memory->is_off(load);
+  const int regime = append_tangent(seen.joint, seen.law, seen.look, sight, is_off, out);
+  if (slopes != nullptr && seen.law.follows != nullptr && !is_off && !seen.is_released) {
+    append_slopes(seen.joint, seen.law, sight, regime, units.data(), *slopes);
+  }
+}
+
+int JointSet::append_tangent(const Joint& joint, const Law& law, const Look& look,
+                             const loads::Sight& sight, bool is_off, SoftRows& out) const {
+  const model::Load& own = model_.loads[law.load];
   out.of_one.clear();
   const int regime =
       citing(own, [&] { return own.element->append_tangent_in_regime(sight, out.of_one); });
   if (is_off) give_nothing(out.of_one);
-  if (seen.law.regime >= 0) out.regimes.push_back(is_off ? 0 : regime);
-  if (slopes != nullptr && seen.law.follows != nullptr && !is_off && !seen.is_released) {
-    append_slopes(seen.joint, seen.law, sight, units.data(), *slopes);
-  }
+  if (law.regime >= 0) out.regimes.push_back(is_off ? 0 : regime);
   if (!is_off && out.of_one.size() > 1) append_mix(*own.element, sight, out);
   for (const loads::SoftRow& row : out.of_one) {
     SystemRow& place = out.rows.emplace_back();
-    derive(seen.joint.first, seen.F,
-           {row.J.segment<3>(0).transpose(), row.J.segment<3>(3).transpose()}, place.first);
-    derive(seen.joint.second, seen.M,
-           {row.J.segment<3>(6).transpose(), row.J.segment<3>(9).transpose()}, place.second);
+    derive(joint.first, look.F, {row.J.segment<3>(0).transpose(), row.J.segment<3>(3).transpose()},
+           place.first);
+    derive(joint.second, look.M, {row.J.segment<3>(6).transpose(), row.J.segment<3>(9).transpose()},
+           place.second);
     out.stiffness.push_back(row.stiffness);
     out.damping.push_back(row.damping);
     out.rigid.push_back(own.rigid_row);
     out.is_closed.push_back(row.is_rigid ? 1 : 0);
   }
+  return regime;
 }
 
 void JointSet::append_slopes(const Joint& joint, const Law& law, const loads::Sight& sight,
-                             const Wrench* units, std::vector<ReactionSlope>& out) {
+                             int regime, const Wrench* units, std::vector<ReactionSlope>& out) {
   thread_local std::vector<Wrench> slopes;  // kept, so that steps allocate nothing
   slopes.clear();
-  law.follows->append_slopes(sight, slopes);
+  law.follows->append_slopes(sight, regime, slopes);
   for (std::size_t n = 0; n < slopes.size(); ++n) {
     for (int k = 0; k < joint.num_rows; ++k) {
       const double value =
@@ -127,15 +130,22 @@ void JointSet::append_slopes(const Joint& joint, const Law& law, const loads::Si
   }
 }
 
-void JointSet::act(const Joint& joint, const Markers& markers, double t, const Laws& with,
+void JointSet::act(const Joint& joint, const Look& look, double t, const Laws& with,
                    const Wrench* units, JointWrenches& wrenches, Forces& forces) const {
   const Wrench reaction = wrenches.on_second;
   for (std::size_t n = joint.laws; n < joint.laws + joint.num_laws; ++n) {
     const Law& law = laws_[n];
-    if (with.around.memory != nullptr && with.around.memory->is_off(law.load)) continue;
+    const bool is_off = with.around.memory != nullptr && with.around.memory->is_off(law.load);
+    if (is_off && with.soft == nullptr) continue;
     const model::Load& load = model_.loads[law.load];
     const loads::Sight sight =
-        sight_at_joint(model_, law.load, t, with.around, markers.first, markers.second, reaction);
+        sight_at_joint(model_, law.load, t, with.around, look.first, look.second, reaction);
+    if (with.soft != nullptr) {
+      SoftRows& soft = (*with.soft)[n];
+      soft.clear();
+      append_tangent(joint, law, look, sight, is_off, soft);
+      if (is_off) continue;
+    }
     const loads::Action action = citing(load, [&] { return load.element->respond(sight); });
     wrenches.on_first += action.on_first;
     wrenches.on_second += action.on_second;
@@ -145,7 +155,7 @@ void JointSet::act(const Joint& joint, const Markers& markers, double t, const L
     if (law.regime >= 0) forces.regimes[static_cast<std::size_t>(law.regime)] = action.regime;
     if (load.rigid_row >= 0) forces.rigid[static_cast<std::size_t>(load.rigid_row)] = action.row;
     if (units != nullptr && law.follows != nullptr) {
-      append_slopes(joint, law, sight, units, *with.slopes);
+      append_slopes(joint, law, sight, action.regime, units, *with.slopes);
     }
   }
 }

@@ -38,14 +38,14 @@ ReactionSlopes::ReactionSlopes(const model::Model& model) : model_(model) {
   }
 }
 
-void ReactionSlopes::append(std::size_t load, int soft, const loads::Sight& sight,
+void ReactionSlopes::append(std::size_t load, int soft, int regime, const loads::Sight& sight,
                             const Circumstances& around, const Travel* travel,
                             std::vector<ReactionSlope>& out) const {
   if (const loads::ReactionFollower* law = followers_[load]) {
     const model::Joint& joint = model_.joints[static_cast<std::size_t>(model_.loads[load].joint)];
     thread_local std::vector<spatial::Wrench> slopes;  // kept, so that steps allocate nothing
     slopes.clear();
-    law->append_slopes(sight, slopes);
+    law->append_slopes(sight, regime, slopes);
     for (std::size_t k = 0; k < slopes.size(); ++k) {
       append_slopes_of_row(joint, soft + static_cast<int>(k), slopes[k], sight,
                            states_of(joint, around.memory), travel, out);

@@ -26,10 +26,11 @@ class ReactionSlopes {
   /// @param model must outlive this object
   explicit ReactionSlopes(const model::Model& model);
 
-  /// Appends those of a load, if it has any. @param soft its first soft row
+  /// Appends those of a load, if it has any. @param soft its first soft row, @param regime of them
   /// @param sight as the law sees it, @param travel of a law on a slider's coordinate
-  void append(std::size_t load, int soft, const loads::Sight& sight, const Circumstances& around,
-              const Travel* travel, std::vector<ReactionSlope>& out) const;
+  void append(std::size_t load, int soft, int regime, const loads::Sight& sight,
+              const Circumstances& around, const Travel* travel,
+              std::vector<ReactionSlope>& out) const;
 
  private:
   const model::Model& model_;

@@ -120,7 +120,8 @@ bool BallFriction::mix_rows(const Sight& sight, RowMix& mix) const {
   return true;
 }
 
-void BallFriction::append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const {
+void BallFriction::append_slopes(const Sight& sight, int /*regime*/,
+                                 std::vector<spatial::Wrench>& slopes) const {
   const Stand s = look(sight);
   const Vector3d pressed = bound_.at(sight).data().radius * sight.reaction.force.normalized();
   for (int k = 0; k < 3; ++k) {

@@ -35,7 +35,8 @@ class BallFriction final : public ForceElement, public ReactionFollower {
   int num_soft_rows() const override { return 3; }
   void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const override;
   bool mix_rows(const Sight& sight, RowMix& mix) const override;
-  void append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const override;
+  void append_slopes(const Sight& sight, int regime,
+                     std::vector<spatial::Wrench>& slopes) const override;
   double most_at_rest(const Sight& sight) const override;
   /// Whether the bound is that of each arm of a cross joint, not of the whole torque.
   bool has_arms() const { return arms_.has_value(); }

@@ -109,12 +109,6 @@ UnlimitedForce CoordinateLaw::unlimited(const Sight& sight) const {
   return out;
 }
 
-int CoordinateLaw::limited_to(const ProjectedForce& law, double rate) {
-  const Projected f = project(law, rate);
-  if (!f.is_cut || f.bounded == 0.0) return 0;
-  return f.bounded > 0.0 ? 1 : -1;
-}
-
 void CoordinateLaw::find_states(const Sight& sight, double* states) const {
   if (is_yielding()) states[0] = project(force(sight), sight.coordinate.rate).strain;
 }

@@ -57,8 +57,6 @@ class CoordinateLaw : public ForceElement {
   UnlimitedForce unlimited(const Sight& sight) const;
 
  protected:
-  /// Whether the set limits the force: its sign, 0 if not.
-  static int limited_to(const ProjectedForce& law, double rate);
   virtual ProjectedForce force(const Sight& sight) const = 0;
   /// Whether rest follows: its strain is then a state.
   virtual bool is_yielding() const { return false; }

@@ -40,19 +40,21 @@ void FrictionLaws::set(const Sight& sight, FrictionData& data) const {
 
 DrivenBound::DrivenBound(const FrictionData& data, const Vector3d& axis_F,
                          std::optional<FrictionLaws> laws)
-    : data_(data), axis_F_(axis_F) {
+    : constant_(data, axis_F) {
   if (laws && laws->is_constant()) {
-    laws->set({0.0, {}, {}}, data_);
+    FrictionData given = data;
+    laws->set({0.0, {}, {}}, given);
+    constant_ = FrictionBound(given, axis_F);
   } else {
     laws_ = std::move(laws);
   }
 }
 
 FrictionBound DrivenBound::at(const Sight& sight) const {
-  if (!laws_) return {data_, axis_F_};
-  FrictionData now = data_;
+  if (!laws_) return constant_;
+  FrictionData now = constant_.data();
   laws_->set(sight, now);
-  return {now, axis_F_};
+  return {now, constant_.axis()};
 }
 
 void JointFriction::start_states(const Sight& sight, double* states) const {
@@ -103,32 +105,36 @@ double FrictionBound::coefficient(double rate) const {
 }
 
 ProjectedForce JointFriction::force(const Sight& sight) const {
-  const FrictionBound bound = bound_.at(sight);
-  const FrictionData& data = bound.data();
-  const double load = bound.load(sight);
   ProjectedForce out;
   out.is_yielding = true;
   out.strain = (sight.states != nullptr ? sight.states[0] : 0.0) + sight.coordinate.change;
-  out.highest = bound.at(load, sight.coordinate.rate);
-  out.lowest = -out.highest;
-  out.stiffness = (data.static_coefficient * load + data.preload) / data.slip;
-  // Critical for the moving inertia: sticking does not stop a vibration above its bound.
-  out.damping = 2.0 * std::sqrt(out.stiffness * data.inertia);
-  out.outer_damping = data.viscous;
+  bound_.ask(sight, [&](const FrictionBound& bound) {
+    const FrictionData& data = bound.data();
+    const double load = bound.load(sight);
+    out.highest = bound.at(load, sight.coordinate.rate);
+    out.lowest = -out.highest;
+    out.stiffness = (data.static_coefficient * load + data.preload) / data.slip;
+    // Critical for the moving inertia: sticking does not stop a vibration above its bound.
+    out.damping = 2.0 * std::sqrt(out.stiffness * data.inertia);
+    out.outer_damping = data.viscous;
+  });
   return out;
 }
 
-void JointFriction::append_slopes(const Sight& sight, std::vector<spatial::Wrench>& out) const {
-  const ProjectedForce law = force(sight);
-  const FrictionBound bound = bound_.at(sight);
-  const double rate = sight.coordinate.rate;
-  double growth = limited_to(law, rate) * bound.coefficient(rate);
-  if (growth == 0.0 && law.stiffness > 0.0) {
-    // The spring grows with the bound, its damper with the root of it.
-    const double share = bound.data().static_coefficient / bound.data().slip / law.stiffness;
-    growth = -share * (law.stiffness * law.strain + 0.5 * law.damping * rate);
-  }
-  out.push_back(bound.load_slope(sight, growth));
+void JointFriction::append_slopes(const Sight& sight, int regime,
+                                  std::vector<spatial::Wrench>& out) const {
+  bound_.ask(sight, [&](const FrictionBound& bound) {
+    const double rate = sight.coordinate.rate;
+    double growth = regime * bound.coefficient(rate);  // slides: ±b
+    if (regime == 0) {
+      const ProjectedForce law = force(sight);
+      // The spring grows with the bound, its damper with the root of it.
+      const double per_load = bound.data().static_coefficient / bound.data().slip;
+      const double damping = law.stiffness > 0.0 ? law.damping / law.stiffness : 0.0;
+      growth = -per_load * (law.strain + 0.5 * damping * rate);
+    }
+    out.push_back(bound.load_slope(sight, growth));
+  });
 }
 
 namespace {
@@ -222,7 +228,8 @@ void BristleFriction::append_tangent(const Sight& sight, std::vector<SoftRow>& r
   rows.push_back(row);
 }
 
-void BristleFriction::append_slopes(const Sight& sight, std::vector<spatial::Wrench>& out) const {
+void BristleFriction::append_slopes(const Sight& sight, int /*regime*/,
+                                    std::vector<spatial::Wrench>& out) const {
   const double slope = std::clamp(bend(sight).slope, 0.0, 1.0);
   // Bent fully, they carry the mean of f_s at both ends of the step.
   const double bent = std::copysign(0.5 * (1.0 - slope), sight.coordinate.rate);
@@ -262,7 +269,8 @@ RigidRow RigidFriction::row(const Sight& sight) const {
   return out;
 }
 
-void RigidFriction::append_slopes(const Sight& sight, std::vector<spatial::Wrench>& out) const {
+void RigidFriction::append_slopes(const Sight& sight, int /*regime*/,
+                                  std::vector<spatial::Wrench>& out) const {
   // A row that is closed has whatever force keeps it closed.
   const int regime = sight.stand.regime;
   const double direction = regime == 2 ? 1.0 : regime == 3 ? -1.0 : 0.0;

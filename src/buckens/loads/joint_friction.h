@@ -46,6 +46,7 @@ class FrictionBound {
   /// The same at rest.
   double most_at_rest(const Sight& sight) const { return at(load(sight), 0.0); }
   const FrictionData& data() const { return data_; }
+  const Eigen::Vector3d& axis() const { return axis_F_; }
 
  private:
   FrictionData data_;
@@ -73,12 +74,16 @@ class DrivenBound {
               std::optional<FrictionLaws> laws);
 
   FrictionBound at(const Sight& sight) const;
+  /// f(bound) without a copy of parameters that are constant: every iteration of a step asks.
+  template <class F>
+  auto ask(const Sight& sight, F&& f) const {
+    return laws_ ? f(at(sight)) : f(constant_);
+  }
   bool uses_signals() const { return laws_ && laws_->uses_signals(); }
   bool is_constant() const { return !laws_; }
 
  private:
-  FrictionData data_;
-  Eigen::Vector3d axis_F_;
+  FrictionBound constant_;
   std::optional<FrictionLaws> laws_;
 };
 
@@ -100,7 +105,8 @@ class JointFriction final : public CoordinateLaw, public ReactionFollower {
   /// A joint that covers its slip within a millisecond slides from the start.
   void start_states(const Sight& sight, double* states) const override;
 
-  void append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const override;
+  void append_slopes(const Sight& sight, int regime,
+                     std::vector<spatial::Wrench>& slopes) const override;
   double most_at_rest(const Sight& sight) const override {
     return bound_.at(sight).most_at_rest(sight);
   }
@@ -145,7 +151,8 @@ class BristleFriction final : public ForceElement, public ReactionFollower {
   Action respond(const Sight& sight) const override;
   int num_soft_rows() const override { return 1; }
   void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const override;
-  void append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const override;
+  void append_slopes(const Sight& sight, int regime,
+                     std::vector<spatial::Wrench>& slopes) const override;
   double most_at_rest(const Sight& sight) const override {
     return bound_.at(sight).most_at_rest(sight);
   }
@@ -178,7 +185,8 @@ class RigidFriction final : public RigidLaw, public ReactionFollower {
 
   /// Sticks at rest, slides where it moves.
   void start_states(const Sight& sight, double* states) const override;
-  void append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const override;
+  void append_slopes(const Sight& sight, int regime,
+                     std::vector<spatial::Wrench>& slopes) const override;
   double most_at_rest(const Sight& sight) const override {
     return bound_.at(sight).most_at_rest(sight);
   }

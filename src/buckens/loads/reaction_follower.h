@@ -14,7 +14,9 @@ class ReactionFollower {
 
   /// Appends, for each soft row of the law, the derivatives of the force along it by torque and
   /// force of the reaction. Used only for the tangent of the step's iteration.
-  virtual void append_slopes(const Sight& sight, std::vector<spatial::Wrench>& slopes) const = 0;
+  /// @param regime which of its tangents applies, as append_tangent_in_regime() says
+  virtual void append_slopes(const Sight& sight, int regime,
+                             std::vector<spatial::Wrench>& slopes) const = 0;
 
   /// The most that it holds at rest under the reaction [N] or [N m]; zero of laws that only rub
   /// where something moves.

@@ -115,21 +115,32 @@ bool SmallNewton::corrects_positions() const {
   return scheme_.weight == 1.0 || settings_.position_projection;
 }
 
-void SmallNewton::evaluate(std::vector<BodyStep>& bodies, double t, const Vector& lambda,
-                           std::vector<dynamics::ReactionSlope>* slopes) {
+void SmallNewton::find_motions(const std::vector<BodyStep>& bodies) {
   const bool same = scheme_.weight == 1.0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     bodies[b].motion_at_end(scheme_, answers_[b], end_[b]);
     if (!same) bodies[b].motion_at_evaluation(scheme_, answers_[b], evaluation_[b]);
   }
+}
+
+void SmallNewton::evaluate(std::vector<BodyStep>& bodies, double t, const Vector& lambda,
+                           std::vector<dynamics::ReactionSlope>* slopes) {
+  find_motions(bodies);
   steer(t);
+  evaluate_motions(bodies, t, lambda, slopes, nullptr);
+}
+
+void SmallNewton::evaluate_motions(std::vector<BodyStep>& bodies, double t, const Vector& lambda,
+                                   std::vector<dynamics::ReactionSlope>* slopes,
+                                   std::vector<dynamics::SoftRows>* soft) {
+  const bool same = scheme_.weight == 1.0;
   const double t_e = scheme_.evaluation_time(t);
   const auto act = [&] {
     dynamics::evaluate_forces(model_, at_evaluation(), t_e, around_, forces_, 1.0, &joints_.laws());
   };
   act();
   if (rigid_.let_go(forces_.rigid)) act();
-  const dynamics::JointSet::Laws with{around_, slopes};
+  const dynamics::JointSet::Laws with{around_, slopes, soft};
   if (same) {
     joints_.evaluate(end_, t + scheme_.h, around_.memory, residuals_, &lambda, &forces_, &with);
   } else {
@@ -156,20 +167,31 @@ void SmallNewton::keep_shapes_in_rates(const std::vector<BodyStep>& bodies, doub
   residuals_.g_dot = other_residuals_.g_dot;
 }
 
-void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t) {
+void SmallNewton::find_soft_rows(std::vector<BodyStep>& bodies, double t, bool begins_here) {
+  // The first evaluation of the iteration tells tangents of laws on joints, too.
+  is_evaluated_ = begins_here && scheme_.weight == 1.0 && joints_.has_laws() && rigid_.empty() &&
+                  !has_quasi_static_;
+  if (is_evaluated_) {
+    evaluate_motions(bodies, t, *around_.lambda, &slopes_of_joints_, &soft_of_laws_);
+  }
+  dynamics::evaluate_soft_rows(model_, at_evaluation(), scheme_.evaluation_time(t), around_, soft_,
+                               &reaction_slopes_, &slopes_, &joints_,
+                               is_evaluated_ ? &soft_of_laws_ : nullptr);
+  if (!is_evaluated_) return;
+  slopes_.insert(slopes_.end(), slopes_of_joints_.begin(), slopes_of_joints_.end());
+}
+
+void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t, bool begins_here) {
   has_accepted_stands_ = false;
-  const bool same = scheme_.weight == 1.0;
+  find_motions(bodies);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    bodies[b].motion_at_end(scheme_, answers_[b], end_[b]);
-    if (!same) bodies[b].motion_at_evaluation(scheme_, answers_[b], evaluation_[b]);
     bodies[b].compliance = shares_[b].frame_compliance(bodies[b], at_evaluation()[b]);
     compliance_[b].frame = bodies[b].compliance;
     compliance_[b].interface = answers_[b] ? &answers_[b]->interface_compliance() : nullptr;
   }
   ending_.begin(dynamics::rounding_length(model_, end_));
   steer(t);
-  dynamics::evaluate_soft_rows(model_, at_evaluation(), scheme_.evaluation_time(t), around_, soft_,
-                               &reaction_slopes_, &slopes_, &joints_);
+  find_soft_rows(bodies, t, begins_here);
   follow_near();
   follow_released(t);
   bool is_closed = condense(t);
@@ -266,6 +288,7 @@ bool SmallNewton::select_rows_anew(double t, bool may_give_up) {
   const bool are_fewer = rank.independent.size() < rows_in_use_.size();
   if (rank.independent == rows_in_use_ || (are_fewer && !may_give_up)) return false;
   gave_up_rows_ = are_fewer;
+  is_evaluated_ = false;  // multipliers of rows that are no longer in use vanish
   rows_in_use_ = std::move(rank.independent);
   std::sort(rows_in_use_.begin(), rows_in_use_.end());
   number_rows_in_use();
@@ -339,7 +362,7 @@ void SmallNewton::solve_multipliers(double t) {
   for (Eigen::Index k = 0; k < in_use; ++k) {
     X_[k] -= residuals_.g_dot[rows_in_use_[static_cast<std::size_t>(k)]] / scheme_.end_rate;
   }
-  if (scheme_.weight == 1.0 && !soft_stiffness_share_.empty()) {
+  if (scheme_.weight == 1.0 && has_soft_springs_) {
     rows.changes(corrected_, [&](int b) {
       const BodyIteration& share = shares_[static_cast<std::size_t>(b)];
       return dynamics::Displacement{&share.correction_u, &share.y_correcting};
@@ -476,7 +499,7 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
 void SmallNewton::iterate(std::vector<BodyStep>& bodies, double t, Vector& lambda,
                           StepReport& report) {
   leave_to_rows_in_use(lambda);
-  evaluate(bodies, t, lambda);
+  if (!is_evaluated_) evaluate(bodies, t, lambda);
   record_residuals(residuals_, report);
   find_residuals(bodies);
   slopes_are_old_ = std::any_of(

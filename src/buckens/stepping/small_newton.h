@@ -50,7 +50,8 @@ class SmallNewton {
   bool has_accepted_stands() const { return has_accepted_stands_; }
   /// Condenses the joints at the predicted configuration held in `bodies`.
   /// @throws NumericalError naming joints if their equations have become dependent
-  void prepare(std::vector<BodyStep>& bodies, double t);
+  /// @param begins_here whether the iteration begins at that configuration, with λ as it is now
+  void prepare(std::vector<BodyStep>& bodies, double t, bool begins_here);
 
   /// Iterates until the motion stops changing.
   /// @param lambda first guess and result [N, N m]
@@ -74,6 +75,13 @@ class SmallNewton {
 
  private:
   using Change = IterationEnd::Change;
+  void find_motions(const std::vector<BodyStep>& bodies);
+  /// The rest of evaluate(). @param soft null, or to be filled with the rows of laws on joints
+  void evaluate_motions(std::vector<BodyStep>& bodies, double t, const linalg::Vector& lambda,
+                        std::vector<dynamics::ReactionSlope>* slopes,
+                        std::vector<dynamics::SoftRows>* soft);
+  /// Those of all laws at the predicted configuration.
+  void find_soft_rows(std::vector<BodyStep>& bodies, double t, bool begins_here);
   /// @param slopes null, or to be filled with those of laws on joints
   void evaluate(std::vector<BodyStep>& bodies, double t, const linalg::Vector& lambda,
                 std::vector<dynamics::ReactionSlope>* slopes = nullptr);
@@ -204,10 +212,13 @@ class SmallNewton {
   std::vector<char> give_to_corrections_;  // of soft rows: act in the matrix of corrections
   std::vector<double> soft_compliance_;
   std::vector<double> soft_stiffness_share_;  // k θ / k_eff
+  bool has_soft_springs_ = false;             // any of them is not zero
   dynamics::ReactionSlopes reaction_slopes_;
   std::vector<dynamics::ReactionSlope> slopes_;            // as the soft rows are
   std::vector<dynamics::ReactionSlope> slopes_of_joints_;  // after the first iteration
   bool slopes_are_old_ = false;                            // still those of the predicted motion
+  std::vector<dynamics::SoftRows> soft_of_laws_;           // on joints, as they were evaluated
+  bool is_evaluated_ = false;  // prepare() has done what the iteration begins with
   std::vector<dynamics::MultiplierSlope> slopes_in_use_;
   std::vector<loads::RowMix> inverse_mixes_;  // nearly: of singular ones
   std::vector<int> mix_of_row_;               // of each soft row, −1: none

@@ -56,6 +56,8 @@ void SmallNewton::set_soft_rows(const std::vector<double>& stiffness,
     soft_compliance_.push_back(k_eff > 0.0 ? 1.0 / (scheme_.force * k_eff) : 1.0);
     soft_stiffness_share_.push_back(k_eff > 0.0 ? elastic / k_eff : 0.0);
   }
+  has_soft_springs_ = std::any_of(soft_stiffness_share_.begin(), soft_stiffness_share_.end(),
+                                  [](double share) { return share != 0.0; });
 }
 
 int SmallNewton::place_of(const dynamics::ReactionSlope& slope) const {

@@ -380,9 +380,10 @@ void Stepper::compute_round(const model::State& state, int round, StepReport& re
   }
   const auto solved = Clock::now();
   if (round == 0) {
-    newton_->prepare(bodies_, state.t);
+    const bool is_foretold = forecasts_ && forecast_.foretells(state);
+    newton_->prepare(bodies_, state.t, !is_foretold);
     // After it: matrix and directions belong to where the last accelerations lead.
-    if (forecasts_ && forecast_.foretells(state)) forecast_.apply(state, bodies_, lambda_);
+    if (is_foretold) forecast_.apply(state, bodies_, lambda_);
     newton_->iterate(bodies_, state.t, lambda_, report);
   } else {
     newton_->iterate_on(bodies_, state.t, lambda_, report);
