@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace buckens::loads {
 
@@ -135,112 +134,6 @@ void JointFriction::append_slopes(const Sight& sight, int regime,
     }
     out.push_back(bound.load_slope(sight, growth));
   });
-}
-
-namespace {
-
-/// dz/ds of bristles where s grows. @param sliding deflection f_s/σ₀ at which they slide
-double slope_of_bristles(double z, double sliding, double elastic_share) {
-  const double filled = z / sliding;
-  // Bent against the way: elastic, but for LuGre's law itself, where they straighten faster.
-  if (filled <= 0.0) return elastic_share > 0.0 ? 1.0 : 1.0 - filled;
-  double alpha = 1.0;
-  if (elastic_share > 0.0) {
-    if (filled <= elastic_share) return 1.0;
-    const double middle = 0.5 * (1.0 + elastic_share);
-    const double width = 1.0 - elastic_share;
-    if (filled < 1.0 && width > 0.0) {
-      alpha = 0.5 + 0.5 * std::sin(std::numbers::pi * (filled - middle) / width);
-    }
-  }
-  return 1.0 - alpha * filled;
-}
-
-// Parts of the deflection at which bristles slide that one step of their integration covers, and
-// way over which they have surely come to slide.
-constexpr double kPartOfBend = 0.1;
-constexpr double kSurelySliding = 60.0;
-
-}  // namespace
-
-BristleFriction::Bend BristleFriction::bend(const Sight& sight) const {
-  const double rate = sight.coordinate.rate;
-  Bend out;
-  const FrictionBound most = bound_.at(sight);
-  out.bound = most.at(most.load(sight), rate);
-  const double before = sight.states != nullptr ? sight.states[0] : 0.0;
-  const double bound_before = sight.states != nullptr ? sight.states[1] : 0.0;
-  // f_s over the step: the mean of both ends.
-  const double bound = bound_before > 0.0 ? 0.5 * (bound_before + out.bound) : out.bound;
-  const double sliding = bound / bristles_.stiffness;
-  const double way = std::abs(sight.coordinate.change);
-  const double sign = sight.coordinate.change < 0.0 ? -1.0 : 1.0;
-  double z = sign * before;
-  const double share = bristles_.elastic_share;
-  if (!(sliding > 0.0)) {
-    z = 0.0;
-  } else if (way > kSurelySliding * sliding) {
-    z = sliding;
-  } else if (way > 0.0) {
-    const int count = static_cast<int>(std::ceil(way / (kPartOfBend * sliding)));
-    const double ds = way / count;
-    for (int k = 0; k < count; ++k) {  // Runge-Kutta
-      const double a = slope_of_bristles(z, sliding, share);
-      const double b = slope_of_bristles(z + 0.5 * ds * a, sliding, share);
-      const double c = slope_of_bristles(z + 0.5 * ds * b, sliding, share);
-      const double d = slope_of_bristles(z + ds * c, sliding, share);
-      z += ds / 6.0 * (a + 2.0 * b + 2.0 * c + d);
-    }
-  }
-  out.z = sign * z;
-  const double ahead = rate < 0.0 ? -out.z : out.z;
-  const double now = out.bound / bristles_.stiffness;
-  out.slope = now > 0.0 ? slope_of_bristles(ahead, now, share) : 0.0;
-  return out;
-}
-
-Action BristleFriction::evaluate(double /*t*/, const spatial::MarkerMotion& /*first*/,
-                                 const spatial::MarkerMotion& /*second*/) const {
-  return {};
-}
-
-Action BristleFriction::respond(const Sight& sight) const {
-  const Bend now = bend(sight);
-  const double rate = sight.coordinate.rate;
-  const double bent_rate = rate * now.slope;
-  const double elastic = bristles_.stiffness * now.z;
-  const double force =
-      -elastic - bristles_.damping * bent_rate - bound_.at(sight).data().viscous * rate;
-  Action out = along_coordinate(sight.coordinate, force);
-  out.stored_energy = 0.5 * elastic * now.z;
-  out.active_power = force * rate + elastic * bent_rate;
-  out.dissipation = -out.active_power;
-  out.regime = now.slope > 0.5 ? 0 : rate < 0.0 ? -1 : 1;
-  return out;
-}
-
-void BristleFriction::append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const {
-  const double slope = std::max(0.0, bend(sight).slope);
-  SoftRow row;
-  row.J = sight.coordinate.J;
-  row.stiffness = slope * bristles_.stiffness;
-  row.damping = slope * bristles_.damping + bound_.at(sight).data().viscous;
-  rows.push_back(row);
-}
-
-void BristleFriction::append_slopes(const Sight& sight, int /*regime*/,
-                                    std::vector<spatial::Wrench>& out) const {
-  const double slope = std::clamp(bend(sight).slope, 0.0, 1.0);
-  // Bent fully, they carry the mean of f_s at both ends of the step.
-  const double bent = std::copysign(0.5 * (1.0 - slope), sight.coordinate.rate);
-  const FrictionBound bound = bound_.at(sight);
-  out.push_back(bound.load_slope(sight, -bent * bound.coefficient(sight.coordinate.rate)));
-}
-
-void BristleFriction::find_states(const Sight& sight, double* states) const {
-  const Bend now = bend(sight);
-  states[0] = now.z;
-  states[1] = now.bound;
 }
 
 void RigidFriction::start_states(const Sight& sight, double* states) const {

@@ -10,6 +10,7 @@
 #include "buckens/dynamics/row_memory.h"
 #include "buckens/dynamics/test/example_models.h"
 #include "buckens/loads/ball_friction.h"
+#include "buckens/loads/bristle_friction.h"
 #include "buckens/loads/joint_friction.h"
 
 namespace buckens::dynamics {
@@ -58,13 +59,14 @@ Vector force_of_load(const model::Model& model, const model::State& state, const
 }
 
 /// The slopes, with the directions of their rows, are the derivatives of the load's forces.
-/// @param speed of turning at the joint
-void expect_the_derivatives(const model::Model& model, double speed) {
+/// @param speed of turning at the joint, @param turned since the start of the step
+void expect_the_derivatives(const model::Model& model, double speed, double turned = 0.0) {
   SCOPED_TRACE(speed);
   model::State state = model::placed_state(model);
   state.bodies[1].frame.w = speed * Vector3d(0.3, 0.2, 1);
   state.bodies[1].frame.v.y() = 0.5 * speed;
   state.memory = start_memory(model, motions_of(model, state));
+  for (auto& before : state.memory.coordinates) before.fraction -= turned;
   // The elastic spring of friction, bent by a part of the slip.
   if (speed == 0.0) state.memory.laws.tail(1).setConstant(4e-4);
   state.lambda.resize(model.num_constraint_rows());
@@ -114,6 +116,18 @@ TEST(ReactionSlopes, AreThoseOfRigidFrictionThatSlides) {
               joints::JointCoordinate::angle(Vector3d::UnitZ(), Eigen::Matrix3d::Identity()));
   });
   for (const double speed : {3.0, -3.0}) expect_the_derivatives(model, speed);
+}
+
+TEST(ReactionSlopes, AreThoseOfBristles) {
+  // Bent partly forwards and backwards, and until they slide.
+  for (const double bent : {3e-4, -3e-4, 2e-3}) {
+    const model::Model model = rubbing_rods(JointType::revolute, [](test::Mechanism& m) {
+      m.add_law(std::make_unique<loads::BristleFriction>(pin(), loads::BristleData{1e5, 3.0, 0.0},
+                                                         Vector3d::UnitZ()),
+                joints::JointCoordinate::angle(Vector3d::UnitZ(), Eigen::Matrix3d::Identity()));
+    });
+    for (const double speed : {0.7, -0.7}) expect_the_derivatives(model, speed, bent);
+  }
 }
 
 TEST(ReactionSlopes, AreThoseOfABallThatSlides) {

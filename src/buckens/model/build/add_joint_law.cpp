@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/loads/bristle_friction.h"
 #include "buckens/loads/coordinate_curve.h"
 #include "buckens/loads/coordinate_law.h"
 #include "buckens/loads/coordinate_motor.h"
