@@ -294,18 +294,18 @@ void JointSet::evaluate(const std::vector<BodyMotion>& motions, double t,
       evaluate_slider(*joint.slider, motions, t, memory, out, lambda, forces);
       continue;
     }
-    Look look{motion_of(joint.first, motions), motion_of(joint.second, motions), {}, {}};
+    const Motion F = motion_of(joint.first, motions);
+    const Motion M = motion_of(joint.second, motions);
     JointWrenches wrenches;
     Wrench* const filled = has_laws && with->slopes != nullptr ? units.data() : nullptr;
-    if (!is_released) wrenches = evaluate_rows(j, look.F, look.M, t, states, lambda, out, filled);
+    if (!is_released) wrenches = evaluate_rows(j, F, M, t, states, lambda, out, filled);
     if (forces == nullptr) continue;
     if (has_laws) {
-      look.first = look.F.marker(joint.first);
-      look.second = look.M.marker(joint.second);
+      const Look look{F, M, F.marker(joint.first), M.marker(joint.second)};
       act(joint, look, t, *with, is_released ? nullptr : filled, wrenches, *forces);
     }
-    add_wrench(joint.first, look.F, wrenches.on_first, *forces);
-    add_wrench(joint.second, look.M, wrenches.on_second, *forces);
+    add_wrench(joint.first, F, wrenches.on_first, *forces);
+    add_wrench(joint.second, M, wrenches.on_second, *forces);
   }
 }
 
