@@ -265,6 +265,7 @@ bool SmallNewton::condense(double t) {
         static_cast<int>(model_.bodies.size()), row_pattern(t), soft_.num_of_groups);
     condensation_->pivot_as(pivoted_);
     pivoted_.clear();
+    corrected_.resize(condensation_->size());  // not at the first step in which something sticks
   }
   set_joint_rows(t);
   keep_for_corrections();
