@@ -225,6 +225,23 @@ void add_parts(const model::Model& model, const model::Load& load, const LoadEnd
 
 namespace {
 
+/// Appends the rows of one load, as its element has given them.
+void append_rows_of(const model::Model& model, const model::Load& load, const LoadEnds& ends,
+                    const loads::Sight& sight, SoftRows& out) {
+  out.of_others.clear();
+  if (!load.others.empty()) load.element->append_others_of_rows(sight, out.of_others);
+  const loads::TwistRow* of_others = out.of_others.data();
+  for (const loads::SoftRow& row : out.of_one) {
+    out.rows.push_back(tangent_row(model, load, ends, row.J));
+    add_parts(model, load, ends, of_others, out.rows.back());
+    of_others += load.others.size();
+    out.stiffness.push_back(row.stiffness);
+    out.damping.push_back(row.damping);
+    out.rigid.push_back(load.rigid_row);
+    out.is_closed.push_back(row.is_rigid ? 1 : 0);
+  }
+}
+
 /// A row that does nothing, between the bodies of a load.
 void append_open_place(const model::Model& model, const model::Load& load, SoftRows& out) {
   const auto nothing = [&](const model::MarkerId& id) {
@@ -338,18 +355,7 @@ void evaluate_soft_rows(const model::Model& model, const std::vector<BodyMotion>
       add_slopes_of_signals(load, motions, around, {model, sight, out});
     }
     if (!is_off) append_mix(*load.element, sight, out);
-    out.of_others.clear();
-    if (!load.others.empty()) load.element->append_others_of_rows(sight, out.of_others);
-    const loads::TwistRow* of_others = out.of_others.data();
-    for (const loads::SoftRow& row : rows) {
-      out.rows.push_back(tangent_row(model, load, ends, row.J));
-      add_parts(model, load, ends, of_others, out.rows.back());
-      of_others += load.others.size();
-      out.stiffness.push_back(row.stiffness);
-      out.damping.push_back(row.damping);
-      out.rigid.push_back(load.rigid_row);
-      out.is_closed.push_back(row.is_rigid ? 1 : 0);
-    }
+    append_rows_of(model, load, ends, sight, out);
   }
   append_group_tangents(model, motions, t, around, out);
 }

@@ -107,8 +107,8 @@ void RoughContacts::foresee(const std::vector<dynamics::BodyMotion>& motions,
       const model::BodyState& s = state.bodies[b];
       Eigen::Matrix<double, 6, 1> change;
       change << s.w_dot, s.v_dot;
-      const body::Body& body = model_.bodies[b];
-      const Eigen::VectorXd y = body.is_flexible() ? body.row_values(s.d_ddot) : Eigen::VectorXd();
+      // Vibrations that a step does not resolve have turned many times by its end.
+      const Eigen::VectorXd y = Eigen::VectorXd::Zero(motions[b].y.size());
       rate += part->rate(motions[b]);
       acceleration += part->change(change, y);
     }
