@@ -119,7 +119,7 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
   find_islands();
   // What the blow presses together, as a stack on the floor, is hit at the same instant.
   for (Touch& touch : touches_) {
-    if (touch.stays || touch.approach > 0.0) continue;
+    if (touch.stays || touch.approach > 0.0 || touch.is_of_step) continue;
     touch.stays = true;
     touch.rest = strongest_near(touch).rest;
   }
@@ -163,7 +163,7 @@ bool Impacts::strike(const std::vector<dynamics::BodyMotion>& then,
     }
     move_bodies(P);
     const Vector jump = D * P;
-    land(jump);
+    land(P, jump);
     lose(P, jump, then);
     clear_ends(P, then, rows_in_use, memory, t);
   } catch (const StepFailure& failure) {
@@ -271,9 +271,11 @@ bool Impacts::look(std::size_t index, const dynamics::Circumstances& around,
     set_approach(touch, law, sight.coordinate, sign, contact.gap);
     const double e = restitution(law, -touch.rate);
     if (e > 0.0 && moves_mesh(law)) {
-      // What has turned round within the step has nothing yet that could be reflected.
-      if (!(sign * law.start.rate < 0.0)) return false;
-      make_impulse_of_step(touch, e, sign * law.start.rate);
+      const double rate_start = sign * law.start.rate;
+      // What has turned round within the step comes back no faster than it left: no work, and no
+      // way.
+      if (rate_start >= 0.0 && touch.rate >= -rate_start) return false;
+      make_impulse_of_step(touch, rate_start < 0.0 ? e : 1.0, rate_start);
     }
   } else {
     touch.target = -touch.rate;
@@ -520,7 +522,7 @@ void Impacts::clear_ends(const Vector& P, const std::vector<dynamics::BodyMotion
   }
 }
 
-void Impacts::land(const Vector& jump) {
+void Impacts::land(const Vector& P, const Vector& jump) {
   double size = 0;  // of rates, to tell them from rounding
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     const double change = jump[static_cast<Eigen::Index>(k)];
@@ -529,7 +531,8 @@ void Impacts::land(const Vector& jump) {
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     const Touch& touch = touches_[k];
     const auto i = static_cast<Eigen::Index>(k);
-    if (touch.approach > 0.0) {
+    // What has turned round within the step does not approach at its start.
+    if (touch.approach > 0.0 || (touch.is_of_step && P[i] > 0.0)) {
       ++count_;
       const Law& law = laws_[touch.law];
       const bool is_jammed = touch.strikes && !law.bounces;

@@ -180,7 +180,7 @@ class Impacts {
   /// Takes bodies out of ends into which impulses of the step would still let them go.
   void clear_ends(const linalg::Vector& P, const std::vector<dynamics::BodyMotion>& then,
                   const std::vector<int>& rows_in_use, const model::RowMemory* memory, double t);
-  void land(const linalg::Vector& jump);
+  void land(const linalg::Vector& P, const linalg::Vector& jump);
   static double rate_of(const dynamics::SystemRow& row,
                         const std::vector<dynamics::BodyMotion>& motions);
   /// Speed up to which weight brings back what leaves within a step [m/s]: it does not count as

@@ -266,7 +266,7 @@ void SimulationRun::step() {
   const stepping::StepReport report = take_step(before_, state);
   ++steps_taken_;
   statistics_->add_step(report, state);
-  if (report.impacts > 0) {
+  if (!report.impact_shares.empty()) {
     work_->add_impacts(before_, state, report);
   } else {
     work_->add(state, &before_);
