@@ -272,8 +272,8 @@ bool Impacts::look(std::size_t index, const dynamics::Circumstances& around,
     const double e = restitution(law, -touch.rate);
     if (e > 0.0 && moves_mesh(law)) {
       const double rate_start = sign * law.start.rate;
-      // What has turned round within the step comes back no faster than it left: no work, and no
-      // way.
+      // What has turned round within the step comes back as fast as it left at most: that takes no
+      // work, and it has moved no way.
       if (rate_start >= 0.0 && touch.rate >= -rate_start) return false;
       make_impulse_of_step(touch, rate_start < 0.0 ? e : 1.0, rate_start);
     }
