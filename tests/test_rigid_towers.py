@@ -59,3 +59,11 @@ def test_a_tower_that_slides_is_not_thrown_up(sensors, seed):
     assert out["top.z"].max() < 0.45 + 5e-3
     assert numpy.abs(out["balance"]).max() < 0.1
     assert numpy.diff(out["lost"]).min() > -1e-9
+
+
+def test_a_tower_goes_on_where_no_forces_of_an_instant_are_found(sensors):
+    """At 0.1 s, after a blow, places jam at the instant; forces over the next step exist."""
+    out = sensors(tower(5, 5.5, "0.105 s", step="0.5 ms"))
+    assert out["t"][-1] == pytest.approx(0.105, abs=1e-9)
+    assert numpy.abs(out["balance"]).max() < 0.03
+    assert out["top.z"].max() < 0.45 + 5e-3

@@ -40,6 +40,8 @@ void visit_sent(const BuckensGridColumns& all, bool is_symmetric, int first, int
   }
 }
 
+/// The values above the diagonal are taken to be those below it: callers give symmetric matrices,
+/// and nothing here compares them. This tells matrices of which one triangle is given.
 bool has_entries_of_both_triangles(int size, const BuckensGridColumns& all) {
   int below = 0, above = 0;
   for (int column = 0; column < size; ++column) {

@@ -191,6 +191,14 @@ bool settle_rough(const model::Model& model, const dynamics::MassMetric& metric,
   return !contacts.are_sudden(state);
 }
 
+/// @throws NumericalError naming a rigid contact with friction where they jam over the step, too
+void hold_over_step(const model::Model& model, RoughContacts& contacts, model::State& state) try {
+  contacts.hold_over(state.last_step, state);
+} catch (const NumericalError& failure) {
+  throw NumericalError(fmt::format("load \"{}\" at t = {:.6g} s: {}",
+                                   find_rough_contact(model)->name, state.t, failure.what()));
+}
+
 }  // namespace
 
 void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& metric,
@@ -209,7 +217,7 @@ void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& me
     // At the instant there are none, or such as no step could go on with.
     if (start.last_step > 0.0) {
       state = start;
-      contacts.hold_over(start.last_step, state);
+      hold_over_step(model, contacts, state);
       return;
     }
   }

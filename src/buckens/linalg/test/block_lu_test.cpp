@@ -183,6 +183,37 @@ TEST(BlockLu, BlocksThatAreAloneChangeNothing) {
   }
 }
 
+TEST(BlockLu, TakesValuesWhateverBlocksWereAloneBefore) {
+  // Matrices come and go with other blocks alone, factorised in between, and leave nothing behind.
+  Couples all = chain(6);
+  all.emplace_back(0, 5);
+  all.emplace_back(1, 4);
+  const std::vector<int> sizes(6, 3);
+  BlockLu from(sizes, all), to(sizes, all);
+  for (const int block : {1, 4, 2, -1, 3, 0}) {
+    Example example(sizes, all);
+    std::vector<char> alone(block < 0 ? 0 : 6, 0);
+    if (block >= 0) {
+      alone[static_cast<std::size_t>(block)] = 1;
+      const int first = example.first[static_cast<std::size_t>(block)];
+      const Matrix own = example.A.block(first, first, 3, 3);
+      example.A.middleRows(first, 3).setZero();
+      example.A.middleCols(first, 3).setZero();
+      example.A.block(first, first, 3, 3) = own;
+    }
+    from.clear();
+    from.set_alone(alone);
+    example.enter(from);
+    to.take_values(from);
+    ASSERT_TRUE(from.factorise() && to.factorise());
+    Vector x = Vector::LinSpaced(example.A.rows(), -1.0, 2.0), y = x;
+    from.solve_in_place(x);
+    to.solve_in_place(y);
+    EXPECT_EQ(x, y) << block;
+    EXPECT_LE((example.A * x - Vector::LinSpaced(x.size(), -1.0, 2.0)).norm(), 1e-13) << block;
+  }
+}
+
 TEST(BlockLu, TellsPoorPivots) {
   const Example example({2, 2}, chain(2));
   BlockLu lu(example.sizes, example.couples);
