@@ -25,6 +25,10 @@ std::vector<Member> Member::parts() const {
 
 std::vector<Field> Member::fields() const { return type->fields(at); }
 
+std::shared_ptr<void> MemberType::make() const {
+  return {create(), [this](void* record) { destroy(record); }};
+}
+
 std::size_t MemberType::size(const void*) const { refuse(*this, "size"); }
 Member MemberType::part(void*, std::size_t) const { refuse(*this, "part"); }
 const MemberType& MemberType::part_type() const { refuse(*this, "part_type"); }
@@ -36,10 +40,9 @@ std::size_t MemberType::index(const void*) const { refuse(*this, "index"); }
 std::vector<std::string> MemberType::choices() const { refuse(*this, "choices"); }
 std::vector<std::string> MemberType::planned() const { refuse(*this, "planned"); }
 void MemberType::choose(void*, std::size_t) const { refuse(*this, "choose"); }
-std::shared_ptr<void> MemberType::make() const { refuse(*this, "make"); }
+void* MemberType::create() const { refuse(*this, "create"); }
+void MemberType::destroy(void*) const { refuse(*this, "destroy"); }
 std::vector<Field> MemberType::fields(void*) const { refuse(*this, "fields"); }
-bool MemberType::has_name() const { return false; }
-bool MemberType::has_foreign_name() const { return false; }
 SourceLocation* MemberType::where(void*) const { return nullptr; }
 std::string* MemberType::name(void*) const { return nullptr; }
 

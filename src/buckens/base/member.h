@@ -53,11 +53,11 @@ class MemberType {
     record      ///< a spec with a field list
   };
 
-  virtual Form form() const = 0;
-  virtual const std::type_info& id() const = 0;
+  Form form() const { return form_; }
+  const std::type_info& id() const { return id_; }
   template <class T>
   bool is() const {
-    return id() == typeid(T);
+    return id_ == typeid(T);
   }
 
   // ---- optional, reference, array, list, variant
@@ -79,17 +79,31 @@ class MemberType {
   virtual void choose(void* choice, std::size_t k) const;
 
   // ---- record
-  virtual std::shared_ptr<void> make() const;
+  std::shared_ptr<void> make() const;
   virtual std::vector<Field> fields(void* record) const;
-  virtual bool has_name() const;
+  bool has_name() const { return name_ != Name::none; }
   /// Whether names come from another program and may hold any characters.
-  virtual bool has_foreign_name() const;
+  bool has_foreign_name() const { return name_ == Name::foreign; }
   virtual SourceLocation* where(void* record) const;  ///< null: keeps no place
   /// Of a record that has one, or of a reference; null otherwise.
   virtual std::string* name(void* member) const;
 
  protected:
+  enum class Name { none, own, foreign };
+
+  // What is the same for all members of a type is data: functions would be compiled for each of
+  // several hundred types.
+  constexpr MemberType(Form form, const std::type_info& id, Name name = Name::none)
+      : form_(form), name_(name), id_(id) {}
   ~MemberType() = default;
+
+  virtual void* create() const;
+  virtual void destroy(void* record) const;
+
+ private:
+  Form form_;
+  Name name_;
+  const std::type_info& id_;
 };
 
 template <class T>

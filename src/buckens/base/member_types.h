@@ -29,16 +29,14 @@ concept HasFields = requires(T& record, FieldCollector& visit) {
 template <class T>
 class ValueType final : public MemberType {
  public:
-  Form form() const override { return Form::value; }
-  const std::type_info& id() const override { return typeid(T); }
+  constexpr ValueType() : MemberType(Form::value, typeid(T)) {}
 };
 
 /// Its words are those of choice_names(T), in the order of its values.
 template <class T>
 class ChoiceType final : public MemberType {
  public:
-  Form form() const override { return Form::choice; }
-  const std::type_info& id() const override { return typeid(T); }
+  constexpr ChoiceType() : MemberType(Form::choice, typeid(T)) {}
   std::vector<std::string> choices() const override { return words(choice_names(T{})); }
   std::vector<std::string> planned() const override {
     if constexpr (requires { planned_names(T{}); }) return words(planned_names(T{}));
@@ -61,8 +59,7 @@ class ChoiceType final : public MemberType {
 template <class T>
 class OptionalType final : public MemberType {
  public:
-  Form form() const override { return Form::optional; }
-  const std::type_info& id() const override { return typeid(std::optional<T>); }
+  constexpr OptionalType() : MemberType(Form::optional, typeid(std::optional<T>)) {}
   std::size_t size(const void* member) const override {
     return static_cast<const std::optional<T>*>(member)->has_value() ? 1 : 0;
   }
@@ -78,8 +75,7 @@ class OptionalType final : public MemberType {
 template <class T>
 class ReferenceType final : public MemberType {
  public:
-  Form form() const override { return Form::reference; }
-  const std::type_info& id() const override { return typeid(Reference<T>); }
+  constexpr ReferenceType() : MemberType(Form::reference, typeid(Reference<T>)) {}
   std::size_t size(const void* /*member*/) const override { return 1; }
   Member part(void* member, std::size_t /*k*/) const override {
     return member_of(static_cast<Reference<T>*>(member)->value);
@@ -93,8 +89,7 @@ class ReferenceType final : public MemberType {
 template <class T, std::size_t n>
 class ArrayType final : public MemberType {
  public:
-  Form form() const override { return Form::array; }
-  const std::type_info& id() const override { return typeid(std::array<T, n>); }
+  constexpr ArrayType() : MemberType(Form::array, typeid(std::array<T, n>)) {}
   std::size_t size(const void* /*member*/) const override { return n; }
   Member part(void* member, std::size_t k) const override {
     return member_of((*static_cast<std::array<T, n>*>(member))[k]);
@@ -105,8 +100,7 @@ class ArrayType final : public MemberType {
 template <class T>
 class ListType final : public MemberType {
  public:
-  Form form() const override { return Form::list; }
-  const std::type_info& id() const override { return typeid(std::vector<T>); }
+  constexpr ListType() : MemberType(Form::list, typeid(std::vector<T>)) {}
   std::size_t size(const void* member) const override {
     return static_cast<const std::vector<T>*>(member)->size();
   }
@@ -127,8 +121,7 @@ class ListType final : public MemberType {
 template <class... T>
 class VariantType final : public MemberType {
  public:
-  Form form() const override { return Form::variant; }
-  const std::type_info& id() const override { return typeid(Variant); }
+  constexpr VariantType() : MemberType(Form::variant, typeid(std::variant<T...>)) {}
   std::size_t size(const void* /*member*/) const override { return 1; }
   std::size_t index(const void* member) const override {
     return static_cast<const Variant*>(member)->index();
@@ -153,28 +146,31 @@ class VariantType final : public MemberType {
 template <HasFields T>
 class RecordType final : public MemberType {
  public:
-  Form form() const override { return Form::record; }
-  const std::type_info& id() const override { return typeid(T); }
-  std::shared_ptr<void> make() const override { return std::make_shared<T>(); }
+  constexpr RecordType() : MemberType(Form::record, typeid(T), kName) {}
   std::vector<Field> fields(void* record) const override {
     FieldCollector collector;
     static_cast<T*>(record)->fields(collector);
     return std::move(collector.fields);
-  }
-  bool has_name() const override {
-    return requires(T & record) { record.name; };
-  }
-  bool has_foreign_name() const override {
-    return requires { T::kHasForeignName; };
   }
   SourceLocation* where(void* record) const override {
     if constexpr (requires(T & spec) { spec.where; }) return &static_cast<T*>(record)->where;
     return nullptr;
   }
   std::string* name(void* record) const override {
-    if constexpr (requires(T & spec) { spec.name; }) return &static_cast<T*>(record)->name;
+    if constexpr (kName != Name::none) return &static_cast<T*>(record)->name;
     return nullptr;
   }
+
+ private:
+  static constexpr Name name_of_type() {
+    if (requires { T::kHasForeignName; }) return Name::foreign;
+    return requires(T & record) { record.name; }
+    ? Name::own : Name::none;
+  }
+  static constexpr Name kName = name_of_type();
+
+  void* create() const override { return new T; }
+  void destroy(void* record) const override { delete static_cast<T*>(record); }
 };
 
 /// Which of these templates makes the type T.
