@@ -2,9 +2,12 @@
 file(GLOB cli_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/apps/cli/*.cpp")
 if(cli_sources)
   add_executable(buckens_program ${cli_sources})
-  set(BUCKENS_LIGHT "/apps/cli/")
-  buckens_in_pieces(buckens_program "${PROJECT_SOURCE_DIR}/apps")
-  unset(BUCKENS_LIGHT)
+  if(BUCKENS_UNITY)
+    # In one piece: the templates of CLI11 are most of it.
+    set(BUCKENS_LIGHT "/apps/cli/")
+    buckens_make_pieces(buckens_program "${PROJECT_SOURCE_DIR}/apps" 0)
+    unset(BUCKENS_LIGHT)
+  endif()
   set_target_properties(buckens_program PROPERTIES OUTPUT_NAME buckens)
   target_include_directories(buckens_program PRIVATE "${PROJECT_SOURCE_DIR}/apps")
   target_link_libraries(

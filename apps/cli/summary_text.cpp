@@ -122,7 +122,7 @@ std::string limits_text(const results::BodyEffort& body) {
 
 /// Where the energy came from and went. Parts that rounding leaves are left out.
 std::string energy_table(const results::EnergyAccount& account) {
-  constexpr double kRounding = 1e-12;
+  constexpr double kNothing = 1e-12;
   double largest = 0;
   for (const results::EnergyEntry& entry : account.entries) {
     largest = std::max(largest, std::abs(entry.energy));
@@ -132,7 +132,7 @@ std::string energy_table(const results::EnergyAccount& account) {
   for (const auto& [side, word] : {std::pair{Side::brought_in, "brought in"},
                                    std::pair{Side::lost, "lost"}, std::pair{Side::kept, "kept"}}) {
     for (const results::EnergyEntry& entry : account.entries) {
-      if (entry.side != side || std::abs(entry.energy) <= kRounding * largest) continue;
+      if (entry.side != side || std::abs(entry.energy) <= kNothing * largest) continue;
       rows.push_back({word, entry.kind, entry.of, fmt::format("{:.6g}", entry.energy)});
     }
   }
