@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/linalg/dense_cholesky.h"
+#include "buckens/linalg/pivoted_qr.h"
+#include "buckens/linalg/symmetric_eigen.h"
 
 namespace buckens::body {
 
@@ -31,28 +31,24 @@ Matrix complement(const Matrix& Phi, const Sieve& sieve, const Vector& scale) {
     if (size > 0.0) excluded.col(P.cols() + k) /= size;
   }
   if (excluded.cols() == 0) return Matrix::Identity(P.rows(), P.rows());
-  Eigen::ColPivHouseholderQR<Matrix> qr(excluded);
-  qr.setThreshold(1e-8);  // rounding leaves 1e-14, a motion without mass 1
-  const Eigen::Index free = P.rows() - qr.rank();
-  Matrix Z = Matrix::Zero(P.rows(), free);
-  Z.bottomRows(free).setIdentity();
-  return qr.householderQ().setLength(qr.rank()) * Z;
+  // Rounding leaves 1e-14, a motion without mass 1.
+  return linalg::PivotedQr(excluded, 1e-8).complement();
 }
 
 /// Few variables without mass: (M − ν K) x = 0 with ν = 1/ω², the massless motions at ν = 0.
 FreeModes solve_with_massless(const Matrix& M, const Matrix& K) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eigen(M, K);
-  if (eigen.info() != Eigen::Success) {
+  const std::optional<linalg::SymmetricEigen> eigen = linalg::generalised_eigen(M, K);
+  if (!eigen) {
     throw NumericalError(
         "free vibration: the body has motions with neither mass nor stiffness; give its nodes "
         "mass");
   }
-  const Vector nu = eigen.eigenvalues().reverse();
+  const Vector nu = eigen->values.reverse();
   Eigen::Index count = 0;
   while (count < nu.size() && nu[count] > 1e-14 * nu[0]) ++count;
   FreeModes modes;
   modes.omega = nu.head(count).cwiseSqrt().cwiseInverse();
-  modes.shapes = eigen.eigenvectors().rowwise().reverse().leftCols(count) *
+  modes.shapes = eigen->vectors.rowwise().reverse().leftCols(count) *
                  modes.omega.asDiagonal();  // K-orthonormal → M-orthonormal
   return modes;
 }
@@ -86,11 +82,11 @@ FreeModes dense_free_modes(const SparseMatrix& M, const SparseMatrix& K, const M
   const Matrix Mz = Z.transpose() * (M * Z);
   const Matrix Kz = Z.transpose() * (K * Z);
   FreeModes modes;
-  const Eigen::LLT<Matrix> cholesky(Mz);
-  if (cholesky.info() == Eigen::Success && cholesky.rcond() > 1e-12) {
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eigen(Kz, Mz);
-    modes.omega = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-    modes.shapes = eigen.eigenvectors();
+  const linalg::DenseCholesky cholesky(Mz);
+  const bool is_regular = cholesky.is_positive_definite() && cholesky.rcond() > 1e-12;
+  if (const auto eigen = is_regular ? linalg::generalised_eigen(Kz, Mz) : std::nullopt) {
+    modes.omega = eigen->values.cwiseMax(0.0).cwiseSqrt();
+    modes.shapes = eigen->vectors;
   } else {
     modes = solve_with_massless(Mz, Kz);
   }

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/body/of_body.h"
+#include "buckens/linalg/pivoted_qr.h"
 
 namespace buckens::body {
 
@@ -38,11 +38,8 @@ std::vector<int> isostatic_variables(const fem::FeModel& fe, const Sieve& sieve,
       if (node[k] >= 0) rows.row(node[k]) *= length;
     }
   }
-  const Eigen::ColPivHouseholderQR<Matrix> qr(rows.transpose());
-  std::vector<int> held(static_cast<std::size_t>(sieve.rank()));
-  for (std::size_t k = 0; k < held.size(); ++k) {
-    held[k] = qr.colsPermutation().indices()[static_cast<Eigen::Index>(k)];
-  }
+  std::vector<int> held = linalg::PivotedQr(rows.transpose()).order();
+  held.resize(static_cast<std::size_t>(sieve.rank()));
   std::sort(held.begin(), held.end());
   return held;
 }

@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
@@ -14,7 +11,10 @@
 #include "buckens/body/iterated_modes.h"
 #include "buckens/body/shift_estimate.h"
 #include "buckens/linalg/inverse_iteration.h"
+#include "buckens/linalg/pivoted_qr.h"
+#include "buckens/linalg/pseudo_inverse.h"
 #include "buckens/linalg/sparse_cholesky.h"
+#include "buckens/linalg/symmetric_eigen.h"
 
 namespace buckens::body {
 
@@ -40,12 +40,7 @@ Matrix null_space(const Matrix& columns, const Vector& scale) {
     const double size = weighted.col(k).norm();
     if (size > 0.0) weighted.col(k) /= size;
   }
-  Eigen::ColPivHouseholderQR<Matrix> qr(weighted);
-  qr.setThreshold(kDependentColumn);
-  const Eigen::Index free = columns.rows() - qr.rank();
-  Matrix Z = Matrix::Zero(columns.rows(), free);
-  Z.bottomRows(free).setIdentity();
-  return qr.householderQ().setLength(qr.rank()) * Z;
+  return linalg::PivotedQr(weighted, kDependentColumn).complement();
 }
 
 FreeModes solve_fixed_dense(const FlexiblePart& part, const Matrix& columns, Eigen::Index count) {
@@ -55,18 +50,18 @@ FreeModes solve_fixed_dense(const FlexiblePart& part, const Matrix& columns, Eig
   const double shift = 1e-6 * highest_square(part.fe.M, part.fe.K);
   const Matrix M = Z.transpose() * (part.fe.M.whole() * Z);
   const Matrix A = Z.transpose() * (part.fe.K.whole() * Z) + shift * M;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eigen(M, A);
-  if (eigen.info() != Eigen::Success) {
+  const std::optional<linalg::SymmetricEigen> eigen = linalg::generalised_eigen(M, A);
+  if (!eigen) {
     throw NumericalError(
         "vibrations with held interfaces: the body has motions with neither mass nor stiffness; "
         "give its nodes mass");
   }
-  const Vector theta = eigen.eigenvalues().reverse();
+  const Vector theta = eigen->values.reverse();
   Eigen::Index found = 0;
   while (found < std::min(count, theta.size()) && theta[found] > 1e-14 * theta[0]) ++found;
   FreeModes out;
   out.omega = (theta.head(found).cwiseInverse().array() - shift).max(0.0).sqrt().matrix();
-  out.shapes = Z * eigen.eigenvectors().rowwise().reverse().leftCols(found) *
+  out.shapes = Z * eigen->vectors.rowwise().reverse().leftCols(found) *
                theta.head(found).cwiseSqrt().cwiseInverse().asDiagonal();
   return out;
 }
@@ -77,10 +72,11 @@ FreeModes iterate_fixed(const FlexiblePart& part, const Matrix& columns, int cou
   const double shift = bound > 0.0 ? 0.3 * bound : cautious_shift(M, part.fe.K);
   const linalg::SparseCholesky factor(SparseMatrix(part.fe.K.whole() + shift * M));
   const Matrix G = factor.solve(columns);
-  const Eigen::CompleteOrthogonalDecomposition<Matrix> compliance(columns.transpose() * G);
+  linalg::PseudoInverse stiffness;
+  stiffness.compute(columns.transpose() * G);
   const auto inverse = [&](Matrix& F) {
     F = factor.solve(F);
-    F -= G * compliance.solve(columns.transpose() * F);
+    F -= G * (stiffness * Matrix(columns.transpose() * F));
   };
   linalg::InverseIterationSettings settings;
   settings.count = count;

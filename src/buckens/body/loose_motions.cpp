@@ -7,15 +7,15 @@
 #include <set>
 #include <utility>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/constraint/node_region.h"
 #include "buckens/fem/element/block.h"
 #include "buckens/fem/element/node_label.h"
+#include "buckens/linalg/dense_cholesky.h"
+#include "buckens/linalg/pivoted_qr.h"
+#include "buckens/linalg/symmetric_eigen.h"
 
 namespace buckens::body {
 
@@ -53,22 +53,21 @@ VectorXd sizes_of(const MatrixXd& A) {
 /// orthonormal where each variable counts by the root of its entry there.
 MatrixXd unresisted(const MatrixXd& A, const MatrixXd& Z) {
   const VectorXd size = sizes_of(A);
-  const Eigen::HouseholderQR<MatrixXd> qr(size.asDiagonal() * Z);
-  const MatrixXd own = qr.householderQ() * MatrixXd::Identity(Z.rows(), Z.cols());
+  const MatrixXd own = linalg::orthonormal_span(size.asDiagonal() * Z);
   const MatrixXd scaled = size.cwiseInverse().asDiagonal() * A * size.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(own.transpose() * scaled * own);
+  const linalg::SymmetricEigen eigen = linalg::symmetric_eigen(own.transpose() * scaled * own);
   Eigen::Index count = 0;
-  while (count < Z.cols() && eigen.eigenvalues()[count] <= kMassless) ++count;
-  return size.cwiseInverse().asDiagonal() * (own * eigen.eigenvectors().leftCols(count));
+  while (count < Z.cols() && eigen.values[count] <= kMassless) ++count;
+  return size.cwiseInverse().asDiagonal() * (own * eigen.vectors.leftCols(count));
 }
 
 /// Whether every motion has mass: most nodes are done with after this.
 bool has_mass_everywhere(const MatrixXd& M) {
   if (!(M.diagonal().minCoeff() > 0.0)) return false;
   const VectorXd size = M.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::LLT<MatrixXd> factor(size.asDiagonal() * M * size.asDiagonal());
+  const linalg::DenseCholesky factor(size.asDiagonal() * M * size.asDiagonal());
   // det = Π λ with Σ λ = n: the least eigenvalue is at least det (1 − 1/n)^(n − 1) > det / 3.
-  return factor.info() == Eigen::Success && factor.matrixLLT().diagonal().prod() > 1e-3;
+  return factor.is_positive_definite() && factor.diagonal().prod() > 1e-3;
 }
 
 /// Nodes of beams, bars, solids and shells.

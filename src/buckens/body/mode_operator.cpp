@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/linalg/dense_cholesky.h"
 #include "buckens/linalg/factor_threads.h"
 #include "buckens/linalg/sparse_lu.h"
 #include "buckens/linalg/tall_products.h"
@@ -144,14 +145,14 @@ namespace {
 
 ModeOperator full_penalty_operator(const SparseMatrix& K, const Matrix& P, double penalty) {
   const auto A = std::make_shared<Matrix>(Matrix(K) + penalty * P * P.transpose());
-  const auto factor = std::make_shared<Eigen::LLT<Matrix>>(*A);
-  if (factor->info() != Eigen::Success) {
+  const auto factor = std::make_shared<linalg::DenseCholesky>(*A);
+  if (!factor->is_positive_definite()) {
     throw NumericalError("method penalty: K + c PPᵀ is not positive definite; check the mesh");
   }
   ModeOperator op;
   const auto n = static_cast<double>(K.rows());
   op.factor_entries = 0.5 * n * (n + 1.0);
-  op.inverse = [factor](Matrix& F) { factor->solveInPlace(F); };
+  op.inverse = [factor](Matrix& F) { factor->solve_in_place(F); };
   op.multiply = [A](const Vector& x) -> Vector { return *A * x; };
   op.solve = [factor](const Vector& b) -> Vector { return factor->solve(b); };
   op.scale = unit_diagonal(A->diagonal());

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-
 #include "buckens/body/elastic_inverse.h"
 #include "buckens/body/fixed_interface_modes.h"
 #include "buckens/body/free_modes.h"
 #include "buckens/body/mode_groups.h"
+#include "buckens/linalg/pivoted_qr.h"
+#include "buckens/linalg/pseudo_inverse.h"
+#include "buckens/linalg/symmetric_eigen.h"
 
 namespace buckens::body {
 
@@ -38,12 +38,12 @@ Matrix orthonormalised(const SparseMatrix& M, const Matrix& columns) {
     if (size[k] > 0.0) scaled.col(k) /= size[k];
   }
   const Matrix gram = scaled.transpose() * (M * scaled);
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(gram);
+  const linalg::SymmetricEigen eigen = linalg::symmetric_eigen(gram);
   Matrix out(columns.rows(), 0);
   for (Eigen::Index k = gram.cols() - 1; k >= 0; --k) {
-    if (eigen.eigenvalues()[k] < kDependent) break;
+    if (eigen.values[k] < kDependent) break;
     out.conservativeResize(Eigen::NoChange, out.cols() + 1);
-    out.rightCols<1>() = scaled * eigen.eigenvectors().col(k) / std::sqrt(eigen.eigenvalues()[k]);
+    out.rightCols<1>() = scaled * eigen.vectors.col(k) / std::sqrt(eigen.values[k]);
   }
   return out;
 }
@@ -130,30 +130,27 @@ void diagonalise(const FlexiblePart& part, const Matrix& columns, ReducedBasis& 
   }
   const Matrix K = columns.transpose() * (part.fe.K * columns);
   const Matrix M = columns.transpose() * (part.fe.M * columns);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eigen(0.5 * (K + K.transpose()),
-                                                               0.5 * (M + M.transpose()));
-  out.omega = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
-  out.Z = columns * eigen.eigenvectors();
+  const auto eigen =
+      linalg::generalised_eigen(0.5 * (K + K.transpose()), 0.5 * (M + M.transpose()));
+  if (!eigen) throw NumericalError("reduced body: its shapes depend on each other");
+  out.omega = eigen->values.cwiseMax(0.0).cwiseSqrt();
+  out.Z = columns * eigen->vectors;
   out.num_residuals = static_cast<int>(columns.cols()) - out.num_modes;
 }
 
 /// Interface loads that only strain the body, whatever its inertia: ΦᵀNᵀE = 0.
 Matrix self_equilibrated(const FlexiblePart& part, const Matrix& loads) {
   const Matrix resultants = part.sieve.Phi().transpose() * loads;
-  Eigen::ColPivHouseholderQR<Matrix> qr(resultants.transpose());
-  qr.setThreshold(kStraining);
-  if (qr.rank() == loads.cols()) return Matrix(loads.rows(), 0);
-  Matrix E = Matrix::Zero(loads.cols(), loads.cols() - qr.rank());
-  E.bottomRows(E.cols()).setIdentity();
-  return loads * (qr.householderQ() * E);
+  return loads * linalg::PivotedQr(resultants.transpose(), kStraining).complement();
 }
 
 /// Patterns, held by interface loads as far as those have resultants, and not by inertia.
 Matrix held_by(const FlexiblePart& part, const Matrix& patterns, const Matrix& loads) {
   if (patterns.cols() == 0 || loads.cols() == 0) return patterns;
   const Matrix& Phi = part.sieve.Phi();
-  const Eigen::CompleteOrthogonalDecomposition<Matrix> resultants(Phi.transpose() * loads);
-  const Matrix amounts = resultants.solve(Phi.transpose() * patterns);
+  linalg::PseudoInverse from_resultants;
+  from_resultants.compute(Phi.transpose() * loads);
+  const Matrix amounts = from_resultants * Matrix(Phi.transpose() * patterns);
   return patterns - loads * amounts;
 }
 
@@ -172,8 +169,7 @@ struct HeldModes {
 
 HeldModes held_modes(const FlexiblePart& part, const CraigBamptonChoice& choice) {
   const Matrix N = part.rows.topRows(part.num_held_rows());
-  Eigen::ColPivHouseholderQR<Matrix> held(N * part.sieve.Phi());
-  held.setThreshold(kStraining);
+  const linalg::PivotedQr held(N * part.sieve.Phi(), kStraining);
   const auto loose = static_cast<int>(part.sieve.rank() - held.rank());
   const auto lowest = [&part](int count) { return fixed_interface_modes(part, count); };
   const FreeModes found = choice.modes ? lowest_groups(at_most(part, *choice.modes) + loose, lowest)

@@ -5,8 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
+#include "buckens/linalg/symmetric_eigen.h"
 #include "buckens/linalg/tall_products.h"
 
 namespace buckens::body {
@@ -68,19 +67,17 @@ Matrix smooth_fields(const fem::FeModel& fe) {
 double lowest_square_estimate(const FlexiblePart& part) {
   Matrix X = smooth_fields(part.fe);
   part.sieve.apply(X);
-  const Eigen::SelfAdjointEigenSolver<Matrix> mass(
-      linalg::inner_products(X, linalg::symmetric_product(part.fe.M, X)));
-  const double largest = mass.eigenvalues()[mass.eigenvalues().size() - 1];
+  const linalg::SymmetricEigen mass =
+      linalg::symmetric_eigen(linalg::inner_products(X, linalg::symmetric_product(part.fe.M, X)));
+  const double largest = mass.values[mass.values.size() - 1];
   if (!(largest > 0.0)) return 0.0;
   Eigen::Index first = 0;
-  while (mass.eigenvalues()[first] < kNoRotaryInertia * largest) ++first;
+  while (mass.values[first] < kNoRotaryInertia * largest) ++first;
   const Eigen::Index kept = X.cols() - first;
-  const Matrix Z = mass.eigenvectors().rightCols(kept) *
-                   mass.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+  const Matrix Z =
+      mass.vectors.rightCols(kept) * mass.values.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
   const Matrix strain = linalg::inner_products(X, linalg::symmetric_product(part.fe.K, X));
-  const Eigen::SelfAdjointEigenSolver<Matrix> ritz(Z.transpose() * strain * Z,
-                                                   Eigen::EigenvaluesOnly);
-  return std::max(0.0, ritz.eigenvalues()[0]);
+  return std::max(0.0, linalg::symmetric_eigenvalues(Z.transpose() * strain * Z)[0]);
 }
 
 }  // namespace buckens::body

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include "buckens/linalg/symmetric_eigen.h"
 
 namespace buckens::body {
 
@@ -29,13 +29,12 @@ Sieve::Sieve(const Matrix& Phi, const SparseMatrix& M) {
     if (S_(k, k) > kEmptyRow * reference) scale[k] = 1.0 / std::sqrt(S_(k, k));
   }
   const Eigen::Matrix<double, 6, 6> scaled = scale.asDiagonal() * S_ * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(scaled);
+  const linalg::SymmetricEigen eigen = linalg::symmetric_eigen(scaled);
   to_axes_.resize(6, 0);
   for (int k = 0; k < 6; ++k) {
-    if (eigen.eigenvalues()[k] < kEmptyRow) continue;
+    if (eigen.values[k] < kEmptyRow) continue;
     to_axes_.conservativeResize(6, to_axes_.cols() + 1);
-    to_axes_.rightCols<1>() =
-        scale.cwiseProduct(eigen.eigenvectors().col(k)) / std::sqrt(eigen.eigenvalues()[k]);
+    to_axes_.rightCols<1>() = scale.cwiseProduct(eigen.vectors.col(k)) / std::sqrt(eigen.values[k]);
   }
   Phi_ = Phi * to_axes_;
   P_ = M * Phi_;

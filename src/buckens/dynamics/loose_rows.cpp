@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "buckens/dynamics/multiplier_condensation.h"
+#include "buckens/linalg/small_lu.h"
 
 namespace buckens::dynamics {
 
@@ -43,7 +44,7 @@ double interface_share(const linalg::Matrix& interface, const RowBlock::Side& si
 void invert(Eigen::MatrixXd& S) {
   using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kSmall, kSmall>;
   if (S.rows() > kSmall) {
-    S = Eigen::MatrixXd(S.inverse());
+    S = linalg::general_inverse(S);
     return;
   }
   const Small before = S;

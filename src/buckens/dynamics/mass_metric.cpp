@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include "buckens/linalg/conjugate_gradients.h"
 #include "buckens/linalg/least_norm.h"
+#include "buckens/linalg/small_lu.h"
+#include "buckens/linalg/symmetric_eigen.h"
 
 namespace buckens::dynamics {
 
@@ -26,11 +26,11 @@ Matrix symmetric_root(const Matrix& A) {
   const Vector size = A.diagonal().unaryExpr([](double a) { return a > 0.0 ? std::sqrt(a) : 0.0; });
   const Vector inverse = size.unaryExpr([](double s) { return s > 0.0 ? 1.0 / s : 0.0; });
   const Matrix scaled = inverse.asDiagonal() * (0.5 * (A + A.transpose())) * inverse.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(scaled);
-  const double largest = std::max(0.0, eigen.eigenvalues().maxCoeff());
-  const Vector roots = eigen.eigenvalues().unaryExpr(
+  const linalg::SymmetricEigen eigen = linalg::symmetric_eigen(scaled);
+  const double largest = std::max(0.0, eigen.values.maxCoeff());
+  const Vector roots = eigen.values.unaryExpr(
       [largest](double value) { return value > 1e-14 * largest ? std::sqrt(value) : 0.0; });
-  return size.asDiagonal() * eigen.eigenvectors() * roots.asDiagonal();
+  return size.asDiagonal() * eigen.vectors * roots.asDiagonal();
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ Eigen::Matrix<double, 6, 6> frame_mobility(const body::Body& body, const Matrix3
   const auto& T = body.rotation_basis;
   if (T.cols() > 0) {
     const Eigen::MatrixXd reduced = T.transpose() * (J + body.stand_in) * T;
-    out.topLeftCorner<3, 3>() = T * reduced.inverse() * T.transpose();
+    out.topLeftCorner<3, 3>() = T * linalg::general_inverse(reduced) * T.transpose();
   }
   out.bottomRightCorner<3, 3>() =
       body.translation_basis * body.translation_basis.transpose() / body.mass;

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "buckens/exports/glb_file.h"
 #include "buckens/exports/surface_mesh.h"
+#include "buckens/linalg/symmetric_eigen.h"
 
 namespace buckens::exports {
 
@@ -40,17 +40,17 @@ Shapes find_shapes(const Eigen::MatrixXf& motion, int most) {
   const float largest = motion.size() == 0 ? 0.0F : motion.cwiseAbs().maxCoeff();
   if (!(largest > 0.0F)) return out;
   const Eigen::MatrixXd gram = (motion.transpose() * motion).cast<double>();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
-  const double leading = eigen.eigenvalues()[count - 1];
+  const linalg::SymmetricEigen eigen = linalg::symmetric_eigen(gram);
+  const double leading = eigen.values[count - 1];
   Eigen::MatrixXf rest = motion;
   for (Eigen::Index k = count; k-- > 0 && static_cast<int>(out.shapes.size()) < most;) {
-    if (!(eigen.eigenvalues()[k] > kLeastShape * kLeastShape * leading)) break;
-    const Eigen::VectorXf v = eigen.eigenvectors().col(k).cast<float>();
+    if (!(eigen.values[k] > kLeastShape * kLeastShape * leading)) break;
+    const Eigen::VectorXf v = eigen.vectors.col(k).cast<float>();
     const Eigen::VectorXf shape = motion * v;
     rest.noalias() -= shape * v.transpose();
     out.shapes.emplace_back(shape.reshaped(3, shape.size() / 3));
     out.weights.conservativeResize(count, out.weights.cols() + 1);
-    out.weights.rightCols<1>() = eigen.eigenvectors().col(k);
+    out.weights.rightCols<1>() = eigen.vectors.col(k);
   }
   out.error = static_cast<double>(rest.cwiseAbs().maxCoeff() / largest);
   return out;

@@ -7,8 +7,7 @@
 #include <random>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-
+#include "buckens/linalg/symmetric_eigen.h"
 #include "buckens/linalg/tall_products.h"
 
 namespace buckens::linalg {
@@ -118,16 +117,15 @@ void Subspace::orthonormalise(Matrix W, Matrix MW, double nothing, const Matrix*
     remove_known(W, MW, pass == 0 ? shares : nullptr);
     MW = mass_times(W);
     const Matrix G = inner_products(W, MW, settings_.pool);
-    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(0.5 * (G + G.transpose()));
+    const SymmetricEigen eigen = symmetric_eigen(0.5 * (G + G.transpose()));
     const double least = pass == 0 ? nothing : 0.1;
     Eigen::Index dropped = 0;
-    while (dropped < W.cols() &&
-           !(eigen.eigenvalues()[dropped] > std::max(least * least, 1e-290))) {
+    while (dropped < W.cols() && !(eigen.values[dropped] > std::max(least * least, 1e-290))) {
       ++dropped;
     }
     const Eigen::Index kept = W.cols() - dropped;
-    const Matrix U = eigen.eigenvectors().rightCols(kept);
-    const Vector size = eigen.eigenvalues().tail(kept).cwiseSqrt();
+    const Matrix U = eigen.vectors.rightCols(kept);
+    const Vector size = eigen.values.tail(kept).cwiseSqrt();
     const Matrix to_unit = U * size.cwiseInverse().asDiagonal();
     W = combinations(W, to_unit, settings_.pool);
     MW = combinations(MW, to_unit, settings_.pool);
@@ -186,17 +184,17 @@ void Subspace::sweep() {
 }
 
 void Subspace::solve_projected() {
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(0.5 * (T_ + T_.transpose()));
+  const SymmetricEigen eigen = symmetric_eigen(0.5 * (T_ + T_.transpose()));
   std::vector<Eigen::Index> order(static_cast<std::size_t>(T_.rows()));
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
-    return std::abs(eigen.eigenvalues()[a]) > std::abs(eigen.eigenvalues()[b]);
+    return std::abs(eigen.values[a]) > std::abs(eigen.values[b]);
   });
   theta_.resize(T_.rows());
   Z_.resize(T_.rows(), T_.rows());
   for (Eigen::Index k = 0; k < T_.rows(); ++k) {
-    theta_[k] = eigen.eigenvalues()[order[static_cast<std::size_t>(k)]];
-    Z_.col(k) = eigen.eigenvectors().col(order[static_cast<std::size_t>(k)]);
+    theta_[k] = eigen.values[order[static_cast<std::size_t>(k)]];
+    Z_.col(k) = eigen.vectors.col(order[static_cast<std::size_t>(k)]);
   }
   residual_ = Vector::Zero(theta_.size());
   if (block_.cols() > 0) {

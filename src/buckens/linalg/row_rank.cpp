@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-#include <Eigen/QR>
-
+#include "buckens/linalg/pivoted_qr.h"
 #include "buckens/linalg/sparse_qr.h"
 
 namespace buckens::linalg {
@@ -20,12 +19,11 @@ double largest_column(const SparseMatrix& A) {
   return largest;
 }
 
-template <class Permutation>
-RowRank from_permutation(const Permutation& columns, Eigen::Index rank, Eigen::Index count) {
+/// @param order all rows, the independent ones first
+RowRank split_at(const std::vector<int>& order, Eigen::Index rank) {
   RowRank out;
-  for (Eigen::Index k = 0; k < count; ++k) {
-    (k < rank ? out.independent : out.dependent).push_back(columns.indices()[k]);
-  }
+  out.independent.assign(order.begin(), order.begin() + rank);
+  out.dependent.assign(order.begin() + rank, order.end());
   std::sort(out.independent.begin(), out.independent.end());
   std::sort(out.dependent.begin(), out.dependent.end());
   return out;
@@ -37,10 +35,8 @@ RowRank split_rows(const SparseMatrix& J, double tolerance) {
   if (J.rows() == 0) return {};
   const double entries = static_cast<double>(J.rows()) * static_cast<double>(J.cols());
   if (entries <= kDenseEntries) {
-    Eigen::ColPivHouseholderQR<Matrix> qr(Matrix(J.transpose()));
-    // Eigen measures pivots against the largest one.
-    qr.setThreshold(tolerance);
-    return from_permutation(qr.colsPermutation(), qr.rank(), J.rows());
+    const PivotedQr qr(Matrix(J.transpose()), tolerance);
+    return split_at(qr.order(), qr.rank());
   }
   const SparseMatrix columns = J.transpose();
   return split_columns(columns, tolerance * largest_column(columns));

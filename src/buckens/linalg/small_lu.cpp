@@ -44,4 +44,10 @@ void SmallLu::solve_in_place(Vector& x) const {
   x.array() *= scale_.array();
 }
 
+Matrix general_solution(const Matrix& A, const Matrix& B) {
+  return Eigen::PartialPivLU<Matrix>(A).solve(B);
+}
+
+Matrix general_inverse(const Matrix& A) { return Eigen::PartialPivLU<Matrix>(A).inverse(); }
+
 }  // namespace buckens::linalg

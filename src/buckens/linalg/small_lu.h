@@ -26,4 +26,8 @@ class SmallLu {
   mutable Vector scaled_x_;
 };
 
+/// A⁻¹B of a dense matrix, by LU with row exchanges.
+Matrix general_solution(const Matrix& A, const Matrix& B);
+Matrix general_inverse(const Matrix& A);
+
 }  // namespace buckens::linalg

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/QR>
+#include "buckens/linalg/pseudo_inverse.h"
 
 namespace buckens::stepping {
 
@@ -111,8 +111,7 @@ std::optional<SlidingCone> sliding_cone(const Vector& trial, double coefficient,
 bool find_by_newton(const Matrix& D, const Vector& b, const std::vector<ConeRows>& places,
                     Vector& P) {
   ConeEquations equations(D, b, places);
-  Eigen::CompleteOrthogonalDecomposition<Matrix> solver;
-  solver.setThreshold(kHeldByOthers);
+  linalg::PseudoInverse inverse(kHeldByOthers);
   double before = HUGE_VAL;
   int idle = 0;
   for (int k = 0; k < kMostNewtons; ++k) {
@@ -128,8 +127,8 @@ bool find_by_newton(const Matrix& D, const Vector& b, const std::vector<ConeRows
     idle = open < 0.5 * before ? 0 : idle + 1;
     if (idle >= kMostIdle) return false;
     before = open;
-    solver.compute(equations.jacobian());
-    P -= solver.solve(equations.residual());
+    inverse.compute(equations.jacobian());
+    P -= inverse * equations.residual();
   }
   return false;
 }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/QR>
+#include "buckens/linalg/pseudo_inverse.h"
 
 namespace buckens::stepping {
 
@@ -108,10 +108,9 @@ void LargeStep::estimate_solution(const model::BodyState& before, Vector& x) {
     const linalg::Matrix& compliance = op_->compliance();
     const VectorXd scale = compliance.diagonal().unaryExpr(
         [](double of_row) { return of_row > 0.0 ? 1.0 / std::sqrt(of_row) : 0.0; });
-    Eigen::CompleteOrthogonalDecomposition<linalg::Matrix> scaled(scale.size(), scale.size());
-    scaled.setThreshold(kDependentRow);
+    linalg::PseudoInverse scaled(kDependentRow);
     scaled.compute(scale.asDiagonal() * compliance * scale.asDiagonal());
-    loads_of_N_ = scale.asDiagonal() * scaled.pseudoInverse() * scale.asDiagonal();
+    loads_of_N_ = scale.asDiagonal() * scaled.whole() * scale.asDiagonal();
   }
   // Least energy of the error: Gᵀ(b − K̂ (x + G a)) = 0 with K̂ G = Yᵀ Nᵀ.
   const VectorXd misfit = G.transpose() * free_ - op_->N() * x;

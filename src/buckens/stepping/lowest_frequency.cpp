@@ -9,6 +9,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "buckens/linalg/symmetric_eigen.h"
+
 namespace buckens::stepping {
 
 using Eigen::Vector3d;
@@ -100,14 +102,14 @@ Vector nodal_values(const body::FlexiblePart& part, const SmoothField& field,
 /// The combination of vectors with the least Rayleigh quotient. @param M, K their projections
 Vector least_combination(const Matrix& M, const Matrix& K) {
   const Vector scale = M.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Matrix> mass(scale.asDiagonal() * M * scale.asDiagonal());
-  const auto kept = (mass.eigenvalues().array() > kNothingNew * mass.eigenvalues().maxCoeff());
+  const linalg::SymmetricEigen mass =
+      linalg::symmetric_eigen(scale.asDiagonal() * M * scale.asDiagonal());
+  const auto kept = (mass.values.array() > kNothingNew * mass.values.maxCoeff());
   const auto rank = static_cast<Eigen::Index>(kept.count());
   if (rank == 0) return Vector::Zero(M.rows());
-  const Matrix T = scale.asDiagonal() * mass.eigenvectors().rightCols(rank) *
-                   mass.eigenvalues().tail(rank).cwiseSqrt().cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix> stiffness(T.transpose() * K * T);
-  return T * stiffness.eigenvectors().col(0);
+  const Matrix T = scale.asDiagonal() * mass.vectors.rightCols(rank) *
+                   mass.values.tail(rank).cwiseSqrt().cwiseInverse().asDiagonal();
+  return T * linalg::symmetric_eigen(T.transpose() * K * T).vectors.col(0);
 }
 
 /// XᵀA X, column by column: A X would take as much memory as X.

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
@@ -14,6 +13,7 @@
 #include "buckens/dynamics/drives.h"
 #include "buckens/dynamics/frame_equation.h"
 #include "buckens/dynamics/row_memory.h"
+#include "buckens/linalg/pivoted_qr.h"
 #include "buckens/spatial/rotation.h"
 #include "buckens/stepping/change_of_step.h"
 
@@ -50,11 +50,10 @@ struct MonolithicStepper::Part {
       const double norm = P.col(k).norm();
       P.col(k) *= norm > 1e-12 * largest ? 1.0 / norm : 0.0;
     }
-    Eigen::ColPivHouseholderQR<Matrix> qr(P);
-    qr.setThreshold(1e-9);
+    const linalg::PivotedQr qr(P, 1e-9);
     Matrix out(P.rows(), qr.rank());
     for (Eigen::Index k = 0; k < qr.rank(); ++k) {
-      out.col(k) = P.col(qr.colsPermutation().indices()[k]);
+      out.col(k) = P.col(qr.order()[static_cast<std::size_t>(k)]);
     }
     return out;
   }

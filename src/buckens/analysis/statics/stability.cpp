@@ -5,12 +5,12 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <fmt/format.h>
 
+#include "buckens/linalg/dense_cholesky.h"
+#include "buckens/linalg/singular_values.h"
 #include "buckens/linalg/sparse_lu.h"
+#include "buckens/linalg/symmetric_eigen.h"
 
 namespace buckens::analysis {
 
@@ -56,14 +56,13 @@ std::optional<StaticModes> static_modes(const StaticSystem& system, double sigma
     }
     stiffest = std::max(stiffest, std::abs(A.coeff(column, column) / W(j, j) - sigma));
   }
-  const Eigen::LLT<Matrix> root(W);
-  const Matrix R = root.matrixL();
+  const Matrix R = linalg::DenseCholesky(W).lower();
   const Matrix mobility = R.transpose() * (0.5 * (compliance + compliance.transpose())) * R;
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(mobility);
+  const linalg::SymmetricEigen eigen = linalg::symmetric_eigen(mobility);
   // κ = 1/μ − σ: ascending κ is descending 1/μ, negative μ first.
   std::vector<std::pair<double, Eigen::Index>> order;
   for (Eigen::Index k = 0; k < count; ++k) {
-    const double mu = eigen.eigenvalues()[k];
+    const double mu = eigen.values[k];
     if (std::abs(mu) * sigma > kForbidden) order.emplace_back(1.0 / mu - sigma, k);
   }
   std::sort(order.begin(), order.end());
@@ -75,7 +74,7 @@ std::optional<StaticModes> static_modes(const StaticSystem& system, double sigma
     const auto column = static_cast<Eigen::Index>(k);
     modes.stiffness[column] = order[k].first;
     modes.shapes.col(column) =
-        responses * (R * eigen.eigenvectors().col(order[k].second)) * (order[k].first + sigma);
+        responses * (R * eigen.vectors.col(order[k].second)) * (order[k].first + sigma);
   }
   return modes;
 }
@@ -140,11 +139,11 @@ std::size_t most_moved(const model::Model& model, const StaticSystem& system, co
 std::string span_text(const Matrix& directions, const char* one, const char* plane,
                       const char* any) {
   constexpr double kSameDirection = 1e-3;
-  const Eigen::JacobiSVD<Matrix> svd(directions, Eigen::ComputeFullU);
-  const Vector& size = svd.singularValues();
+  const linalg::SingularValues svd = linalg::singular_values(directions, linalg::LeftVectors::full);
+  const Vector& size = svd.values;
   const auto rank = (size.array() > kSameDirection * size[0]).count();
   if (rank >= 3) return any;
-  if (rank == 2) return plane + direction_text(svd.matrixU().col(2));
+  if (rank == 2) return plane + direction_text(svd.U.col(2));
   return one + direction_text(directions.col(0));
 }
 

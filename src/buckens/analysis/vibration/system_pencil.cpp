@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
-
 #include "buckens/base/errors.h"
 #include "buckens/body/mesh_solver.h"
+#include "buckens/linalg/dense_cholesky.h"
+#include "buckens/linalg/pivoted_qr.h"
+#include "buckens/linalg/small_lu.h"
 
 namespace buckens::analysis {
 
@@ -42,12 +42,7 @@ Matrix null_space(const Matrix& A, double tolerance) {
   if (A.size() == 0 || A.cwiseAbs().maxCoeff() == 0.0) {
     return Matrix::Identity(A.cols(), A.cols());
   }
-  Eigen::ColPivHouseholderQR<Matrix> qr(A.transpose());
-  qr.setThreshold(tolerance);
-  if (qr.rank() == A.cols()) return Matrix(A.cols(), 0);
-  Matrix Z = Matrix::Zero(A.cols(), A.cols() - qr.rank());
-  Z.bottomRows(Z.cols()).setIdentity();
-  return qr.householderQ() * Z;
+  return linalg::PivotedQr(A.transpose(), tolerance).complement();
 }
 
 }  // namespace
@@ -85,7 +80,7 @@ SystemPencil::SystemPencil(const model::Model& model, const model::State& state,
         .setConstant(body.mass);
     Eigen::MatrixXd regular = block.W;
     regular.topLeftCorner(place.rotations, place.rotations) += T.transpose() * body.stand_in * T;
-    block.mobility = regular.inverse();
+    block.mobility = linalg::general_inverse(regular);
     blocks_.push_back(std::move(block));
   }
   add_masses();
@@ -253,8 +248,7 @@ Matrix SystemPencil::zero_modes() const {
   int at = 0;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const int count = tangent_.bodies[b].num_frame();
-    const Eigen::LLT<Eigen::MatrixXd> root(blocks_[b].mobility);
-    const Matrix own = root.matrixL();
+    const Matrix own = linalg::DenseCholesky(blocks_[b].mobility).lower();
     columns.block(tangent_.bodies[b].first, at, count, count) = own;
     full.block(first_[b], at, count, count) = own;
     at += count;
@@ -272,8 +266,7 @@ Matrix SystemPencil::zero_modes() const {
   Matrix out = full * (free * lone);
   if (out.cols() == 0) return out;
   const Matrix metric = out.transpose() * (M_ * out);
-  const Eigen::LLT<Matrix> cholesky(metric);
-  return cholesky.matrixL().solve(out.transpose()).transpose();
+  return linalg::DenseCholesky(metric).solve_lower(out.transpose()).transpose();
 }
 
 std::vector<double> SystemPencil::energies(const Vector& x) const {

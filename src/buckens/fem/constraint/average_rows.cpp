@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/constraint/node_region.h"
 #include "buckens/fem/element/node_label.h"
+#include "buckens/linalg/symmetric_eigen.h"
 
 namespace buckens::fem {
 
@@ -49,13 +49,13 @@ class ComponentFit {
           S += link.weights[k] / total * motion(k, c) * motion(k, c).transpose();
       }
     }
-    const Eigen::SelfAdjointEigenSolver<FitMatrix> eigen(S);
-    const double least = kOpenMotion * eigen.eigenvalues()[5];
+    const linalg::SymmetricEigen eigen = linalg::symmetric_eigen(S);
+    const double least = kOpenMotion * eigen.values[5];
     FitMatrix told = FitMatrix::Zero();
     for (Eigen::Index k = 0; k < 6; ++k) {
-      const double value = eigen.eigenvalues()[k];
+      const double value = eigen.values[k];
       if (!(value > least)) continue;
-      const FitVector v = eigen.eigenvectors().col(k);
+      const FitVector v = eigen.vectors.col(k);
       told += v * v.transpose();
       inverse_ += v * v.transpose() / value / total;
     }

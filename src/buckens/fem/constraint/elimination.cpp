@@ -8,12 +8,12 @@
 #include <unordered_map>
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/constraint/average_rows.h"
 #include "buckens/fem/element/node_label.h"
+#include "buckens/linalg/singular_values.h"
 
 namespace buckens::fem {
 
@@ -206,9 +206,8 @@ void Eliminator::require_free(Row& row, const std::string& label) const {
     c[k++] = factor * rigid_.size[dof];
   }
   const Eigen::VectorXd work = motions.transpose() * c;
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd(motions, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  svd.setThreshold(1e-10);
-  const Eigen::MatrixXd U = svd.matrixU().leftCols(svd.rank());
+  const linalg::SingularValues svd = linalg::singular_values(motions, linalg::LeftVectors::thin);
+  const Eigen::MatrixXd U = svd.U.leftCols(svd.rank(1e-10));
   const Eigen::VectorXd mended = c - U * (U.transpose() * c);
   if ((mended - c).norm() > kRounding * c.norm()) {
     Eigen::Index worst = 0;

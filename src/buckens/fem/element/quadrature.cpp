@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include "buckens/linalg/symmetric_eigen.h"
 
 namespace buckens::fem {
 
@@ -17,10 +17,9 @@ LineRule gauss_jacobi(int n, int power) {
       beside[k - 1] = std::sqrt(4.0 * k * (k + a) * k * (k + a) / (s * s * (s + 1.0) * (s - 1.0)));
     }
   }
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen;
-  eigen.computeFromTridiagonal(diagonal, beside);
+  const linalg::SymmetricEigen eigen = linalg::tridiagonal_eigen(diagonal, beside);
   const double total = std::pow(2.0, a + 1.0) / (a + 1.0);
-  LineRule out{eigen.eigenvalues(), total * eigen.eigenvectors().row(0).cwiseAbs2().transpose()};
+  LineRule out{eigen.values, total * eigen.vectors.row(0).cwiseAbs2().transpose()};
   if (power == 0) {  // exactly symmetric, so that entries of symmetric elements cancel to zero
     out.place = (0.5 * (out.place - out.place.reverse())).eval();
     out.weight = (0.5 * (out.weight + out.weight.reverse())).eval();

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/fem/line/section_taper.h"
 
-#include <Eigen/LU>
-
 #include "buckens/fem/element/quadrature.h"
+#include "buckens/linalg/small_lu.h"
 
 namespace buckens::fem {
 
@@ -16,7 +15,7 @@ Quartic quartic_through(const Eigen::Matrix<double, 5, 1>& values) {
     powers(i, 0) = 1.0;
     for (int k = 1; k < 5; ++k) powers(i, k) = powers(i, k - 1) * (0.25 * i);
   }
-  const Eigen::Matrix<double, 5, 1> c = powers.partialPivLu().solve(values);
+  const Eigen::Matrix<double, 5, 1> c = linalg::general_solution(powers, values);
   return {c[0], c[1], c[2], c[3], c[4]};
 }
 

@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "buckens/linalg/small_lu.h"
+
 namespace buckens::fem {
 
 using Eigen::Vector3d;
@@ -90,7 +92,7 @@ const Eigen::Matrix<double, 8, 8>& shear_coefficients() {
       }
       ties.row(row++) = mean.transpose();
     }
-    return Eigen::Matrix<double, 8, 8>(ties.inverse());
+    return Eigen::Matrix<double, 8, 8>(linalg::general_inverse(ties));
   }();
   return inverse;
 }

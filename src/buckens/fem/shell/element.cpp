@@ -3,11 +3,11 @@
 
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "buckens/fem/shell/quadratic.h"
 #include "buckens/fem/shell/strain.h"
+#include "buckens/linalg/dense_cholesky.h"
 
 namespace buckens::fem {
 
@@ -74,7 +74,7 @@ FullStiffness full_stiffness(const ShellElement& element, const ShellStrainField
 InnerRows inner_motion(const FullStiffness& K, Eigen::Index count) {
   InnerRows out = InnerRows::Zero(kMostInner, K.outer.cols());
   const Eigen::MatrixXd inner = K.inner.topLeftCorner(count, count);
-  out.topRows(count) = -inner.llt().solve(Eigen::MatrixXd(K.mixed.topRows(count)));
+  out.topRows(count) = -linalg::DenseCholesky(inner).solve(Eigen::MatrixXd(K.mixed.topRows(count)));
   return out;
 }
 

@@ -3,9 +3,8 @@
 
 #include <cmath>
 
-#include <Eigen/LU>
-
 #include "buckens/fem/element/quadrature.h"
+#include "buckens/linalg/small_lu.h"
 
 namespace buckens::fem {
 
@@ -83,7 +82,7 @@ SolidSampling make_sampling(SolidKind kind) {
   for (Eigen::Index n = 0; n < at_nodes.rows(); ++n) {
     at_nodes.row(n) = polynomials(family, element.natural.col(n));
   }
-  out.to_nodes = at_nodes * at_points.inverse();
+  out.to_nodes = at_nodes * linalg::general_inverse(at_points);
   return out;
 }
 

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <fmt/format.h>
 
+#include "buckens/linalg/singular_values.h"
 #include "buckens/mesh_io/abaqus/mesh.h"
 #include "buckens/mesh_io/abaqus/ties.h"
 #include "buckens/mesh_io/abaqus/turned_coupling.h"
@@ -206,15 +206,15 @@ class LinkMaker {
       spread.col(static_cast<Eigen::Index>(k) - 1) = place(nodes[k]) - place(nodes[0]);
     }
     // Left singular vectors beyond the first: directions across the plane or line.
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(spread, Eigen::ComputeFullU | Eigen::ComputeThinV);
-    if (!(svd.singularValues().minCoeff() > 1e-6 * svd.singularValues().maxCoeff())) {
+    const linalg::SingularValues svd = linalg::singular_values(spread, linalg::LeftVectors::full);
+    if (!(svd.values.minCoeff() > 1e-6 * svd.values.maxCoeff())) {
       lines_.fail(link.place, fmt::format("the nodes of *MPC, {} span no {}", link.name,
                                           is_plane ? "plane" : "line"));
     }
     for (std::size_t i = num_leading; i < nodes.size(); ++i) {
       const Eigen::VectorXd by = svd.solve(place(nodes[i]) - place(nodes[0]));
       for (Eigen::Index c = spread.cols(); c < 3; ++c) {
-        const Vector3d across = svd.matrixU().col(c);
+        const Vector3d across = svd.U.col(c);
         fem::ImportedEquation& equation = out_.equations.emplace_back();
         equation.line = link.place.line;
         add_shares(nodes[i], across, equation);

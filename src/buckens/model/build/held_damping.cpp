@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/linalg/dense_cholesky.h"
+#include "buckens/linalg/pseudo_inverse.h"
 
 namespace buckens::model {
 
@@ -101,9 +101,9 @@ Matrix unit_motions(const body::Body& body) {
   Matrix out = Matrix::Zero(6, turns + shifts);
   if (turns > 0) {
     const Eigen::MatrixXd J = body.rotation_basis.transpose() * body.J0 * body.rotation_basis;
-    const Eigen::LLT<Eigen::MatrixXd> root(J);
+    const linalg::DenseCholesky root(J);
     out.topLeftCorner(3, turns) =
-        body.rotation_basis * root.matrixU().solve(Eigen::MatrixXd::Identity(turns, turns));
+        body.rotation_basis * root.solve_lower(Matrix::Identity(turns, turns)).transpose();
   }
   out.bottomRightCorner(3, shifts) = body.translation_basis / std::sqrt(body.mass);
   return out;
@@ -151,10 +151,9 @@ SparseMatrix answer_of_frame(const Model& model, const PlacedRows& rows, std::si
   }
   Eigen::VectorXd scale = G.rowwise().norm();
   scale = scale.unaryExpr([](double size) { return size > 0.0 ? 1.0 / size : 0.0; });
-  Eigen::CompleteOrthogonalDecomposition<Matrix> solver;
-  solver.setThreshold(kDependent);
-  solver.compute(Matrix(scale.asDiagonal() * G));
-  const Matrix answer = solver.pseudoInverse().topRows(units[0].cols()) * scale.asDiagonal();
+  linalg::PseudoInverse inverse(kDependent);
+  inverse.compute(scale.asDiagonal() * G);
+  const Matrix answer = inverse.whole().topRows(units[0].cols()) * scale.asDiagonal();
 
   const body::FlexiblePart& part = *model.bodies[body].flexible;
   std::vector<Triplet> held;

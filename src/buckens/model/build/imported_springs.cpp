@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/model/build/imported_springs.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "buckens/fem/assembly/node_rotations.h"
+#include "buckens/linalg/symmetric_eigen.h"
 
 namespace buckens::model {
 
@@ -60,12 +60,12 @@ bool resists(const Stiffness& S, const Lever& all, const Eigen::MatrixXd& Z) {
 /// What is left of a stiffness where these motions follow: S − S Z (ZᵀSZ)⁺ ZᵀS.
 Stiffness with_free_rotations(const Stiffness& S, const Eigen::MatrixXd& Z) {
   const Eigen::MatrixXd SZ = S * Z;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Z.transpose() * SZ);
-  const Eigen::VectorXd& values = eigen.eigenvalues();
+  const linalg::SymmetricEigen eigen = linalg::symmetric_eigen(Z.transpose() * SZ);
+  const Eigen::VectorXd& values = eigen.values;
   Stiffness out = S;
   for (Eigen::Index k = 0; k < values.size(); ++k) {
     if (!(values[k] > kNoResistance * values[values.size() - 1])) continue;
-    const Eigen::Matrix<double, 6, 1> force = SZ * eigen.eigenvectors().col(k);
+    const Eigen::Matrix<double, 6, 1> force = SZ * eigen.vectors.col(k);
     out -= force * force.transpose() / values[k];
   }
   return 0.5 * (out + out.transpose());

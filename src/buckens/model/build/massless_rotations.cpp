@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/linalg/pivoted_qr.h"
+#include "buckens/linalg/symmetric_eigen.h"
 
 namespace buckens::model {
 
@@ -98,12 +98,12 @@ class MasslessRotations {
     body::Body& body = model_.bodies[b];
     const Axes missing = body.missing_rotations;
     const MatrixXd rows = rows_by(b, missing);
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(rows.transpose() * rows);
-    const auto& squares = eigen.eigenvalues();  // of arms, ascending
+    const linalg::SymmetricEigen eigen = linalg::symmetric_eigen(rows.transpose() * rows);
+    const auto& squares = eigen.values;  // of arms, ascending
     Eigen::Index free = 0;
     while (free < squares.size() && !(squares[free] > kNoArm * kNoArm)) ++free;
     if (free < missing.cols()) {  // otherwise the axes stay those that can be read
-      const Axes axes = missing * eigen.eigenvectors();
+      const Axes axes = missing * eigen.vectors;
       keep(b, axes.rightCols(axes.cols() - free), std::sqrt(squares[free]));
       body.missing_rotations = axes.leftCols(free);
     }
@@ -148,10 +148,9 @@ class MasslessRotations {
       const MatrixXd own = rows_by(kept_[k].first, kept_[k].second);
       columns.col(static_cast<Eigen::Index>(k)) = own / own.norm();
     }
-    Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
-    qr.setThreshold(kNoArm);
+    const linalg::PivotedQr qr(columns, kNoArm);
     if (qr.rank() == columns.cols()) return;
-    const auto last = static_cast<std::size_t>(qr.colsPermutation().indices()[columns.cols() - 1]);
+    const auto last = static_cast<std::size_t>(qr.order().back());
     const auto& [b, axis] = kept_[last];
     const Joint& joint = joint_that_turns(b, axis);
     throw ModelError(
