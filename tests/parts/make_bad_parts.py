@@ -216,7 +216,7 @@ PARTS = {
     "screwed": screwed(60, 0.02),
     "pressed": screwed(22, 0.02),
     "foil": boxes(((0, 0, 0), (100, 60, 1e-4))),
-    "sheet": boxes(((0, 0, 0), (100, 60, 0.25))),
+    "sheet": boxes(((0, 0, 0), (100, 20, 0.25))),
     "block_with_sheet": boxes(((0, 0, 0), (60, 60, 40)), ((60, 0, 20), (40, 60, 0.3))),
     "three_sheets": three_sheets,
     "two_chambers": two_chambers,
