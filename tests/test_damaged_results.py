@@ -295,7 +295,9 @@ def test_texts_of_a_wrong_length(damaged, read, verbs):
     heap = int.from_bytes(whole[place + 4:place + 12], "little")
     assert whole[heap:heap + 4] == b"GCOL"
     for number, at in enumerate([*range(place, place + 16, 3), *range(heap + 5, heap + 40, 5)]):
-        damaged.write_bytes(whole[:at] + b"\x7f" + whole[at + 1:])
+        # The highest byte of the length: 250 MB, as wrong as 2 GB, and copied in a tenth of the time.
+        byte = b"\x0f" if at == place + 3 else b"\x7f"
+        damaged.write_bytes(whole[:at] + byte + whole[at + 1:])
         # Whether the process that reads the texts survives is a matter of luck; this one must. All verbs
         # read in the same way, at up to a minute for all places: they take turns.
         for result in verbs(number):
