@@ -9,8 +9,18 @@ import pathlib
 import signal
 import subprocess
 
-import numpy
 import pytest
+
+# Debian's OpenBLAS solves even 16 equations with a thread per processor, which wait for each other in a loop: ten to a hundred
+# times as long. How many it may take it asks once, as NumPy loads it. Programs that tests start are told nothing of it.
+threads_before = os.environ.get("OMP_NUM_THREADS")
+os.environ["OMP_NUM_THREADS"] = "1"
+import numpy  # noqa: E402
+
+if threads_before is None:
+    del os.environ["OMP_NUM_THREADS"]
+else:
+    os.environ["OMP_NUM_THREADS"] = threads_before
 
 SOURCE = pathlib.Path(os.environ.get("BUCKENS_SOURCE_DIR", pathlib.Path(__file__).parents[1]))
 BINARY = pathlib.Path(os.environ.get("BUCKENS_BINARY_DIR", SOURCE / "build" / "release"))
