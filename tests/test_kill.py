@@ -2,6 +2,7 @@
 """Runs killed with SIGKILL at many moments leave a run directory that can be read, in which at most
 the last second is missing."""
 
+import concurrent.futures
 import csv
 import json
 import multiprocessing
@@ -110,14 +111,32 @@ def check_directory(out):
 
 # Without pauses; bursts of some records; single records, fast and slow.
 RHYTHMS = [(100, 0), (100, 0), (37, 13), (1, 1), (250, 400), (1, 300)]
+SEEDS = range(30)
 
 
-@pytest.mark.parametrize("seed", range(30))
-def test_writer_killed_at_any_moment(tmp_path, seed):
-    chance = random.Random(seed)
+def kill_writer(out, seed):
     burst, pause = RHYTHMS[seed % len(RHYTHMS)]
-    out = tmp_path / "out"
-    killed = run_and_kill([WRITER, out, burst, pause], out, chance.uniform(0, 1.6))
+    return run_and_kill([WRITER, out, burst, pause], out, random.Random(seed).uniform(0, 1.6))
+
+
+@pytest.fixture(scope="module")
+def killed_in_pauses(tmp_path_factory):
+    """Writers with pauses, which take less than a tenth of a processor each, run and are killed five at a time.
+    Directory and clock of each by its seed."""
+    outs = {seed: tmp_path_factory.mktemp("paused") / "out" for seed in SEEDS if RHYTHMS[seed % len(RHYTHMS)][1] > 0}
+    with concurrent.futures.ThreadPoolExecutor(5) as threads:
+        killed = {seed: threads.submit(kill_writer, out, seed) for seed, out in outs.items()}
+    return {seed: (out, killed[seed]) for seed, out in outs.items()}
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_writer_killed_at_any_moment(tmp_path, killed_in_pauses, seed):
+    if seed in killed_in_pauses:
+        out, at = killed_in_pauses[seed]
+        killed = at.result()
+    else:
+        out = tmp_path / "out"
+        killed = kill_writer(out, seed)
     check_directory(out)
     times, found, _file = check_results(out)
     # Every record is the one it should be, and the two copies of its number agree.
