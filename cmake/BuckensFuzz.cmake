@@ -58,7 +58,7 @@ function(buckens_fuzz target seconds)
   add_test(NAME fuzz.${target}
            COMMAND ${BUCKENS_PYTHON} -B "${PROJECT_SOURCE_DIR}/tests/fuzz/run_fuzzer.py" ${options}
                    "$<TARGET_FILE:${name}>" "${PROJECT_SOURCE_DIR}/tests/fuzz/corpus/${target}")
-  set_tests_properties(fuzz.${target} PROPERTIES LABELS fuzz TIMEOUT 120)
+  set_tests_properties(fuzz.${target} PROPERTIES LABELS fuzz TIMEOUT 120 COST ${seconds})
 endfunction()
 
 set_source_files_properties(

@@ -68,5 +68,5 @@ if(BUCKENS_TESTS)
       -D "SOURCE_DIR=${PROJECT_SOURCE_DIR}/tests/install" -D "GENERATOR=${CMAKE_GENERATOR}" -D
       "CXX_COMPILER=${CMAKE_CXX_COMPILER}" -D "CXX_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}" -D
       "VERSION=${PROJECT_VERSION}" -P "${PROJECT_SOURCE_DIR}/tests/install/run.cmake")
-  set_tests_properties(install PROPERTIES LABELS install TIMEOUT 600)
+  set_tests_properties(install PROPERTIES LABELS install TIMEOUT 600 COST 30)
 endif()

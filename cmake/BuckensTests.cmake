@@ -94,17 +94,18 @@ add_library(kept_by_disk MODULE "${PROJECT_SOURCE_DIR}/tests/power/kept_by_disk.
 set_target_properties(kept_by_disk PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/test")
 target_link_libraries(kept_by_disk PRIVATE buckens_common ${CMAKE_DL_LIBS})
 
-# Files that take some seconds of two processors together, or that load the Python module: an entry each, with the seconds
-# of a run, by which ctest starts the longest first and both processors end together. A number need not be kept exact.
+# Files that take some seconds, or that load the Python module: an entry each, with the seconds of a run on an idle machine, by
+# which ctest starts the longest first and both processors end together. A number need not be kept exact.
 set(BUCKENS_LONG_TESTS
-    attach 24 bad_models 16 belts 12 body_loads 20 contact 10 contacts 9 continue 54 curves 11 damaged_results 60
-    docs_commands 44 doubtful_models 22 elastic_gear 10 error 9 example_warnings 60 examples 16 kill 90 mpi 67 packages 34
-    places 23 python 5 python_arrays 5 python_examples 33 python_memory 5 python_mistakes 5 python_package 20
-    python_results 5 python_signals 5 python_verbs 12 recycled_solves 21
-    rigid_cylinder_contact 75 rigid_mesh_pairs 60 run 26 save_state 90 shards 20 solver 36 step_parts 130
-    study_dask 27 study_runs 34 study_samples 5)
-# Others share a process: to start Python with pytest and NumPy takes longer than most of them.
+    continue 28 damaged_results 13 docs_commands 17 docs_site 30 example_warnings 32 examples 8 kill 38 machine_methods 11 mesh_contact 8
+    mesh_pairs 10 mpi 60 packages 11 python 5 python_arrays 5 python_examples 13 python_memory 5 python_mistakes 5
+    python_package 12 python_results 12 python_signals 5 python_verbs 5 rigid_group_statics 14 rigid_towers 21 run 11
+    save_state 27 shards 5 solver 14 step_bodies 8 step_parts 45 study_dask 14 study_runs 20 study_samples 5)
+# Others share a process: to start Python with pytest and NumPy takes longer than most of them. Six take some eight seconds.
 set(BUCKENS_FILES_PER_PROCESS 6)
+set(BUCKENS_PROCESS_SECONDS 8)
+set(BUCKENS_LONG_PROGRAMS
+    analysis_test 14 fem_test 8 linalg_test 8 loads_test 6 model_file_test 9 run_store_test 12 verification_test 49)
 
 # buckens_python_test(cost source...): cli.NAME, or cli.NAME.NAME… of several
 function(buckens_python_test cost)
@@ -140,21 +141,26 @@ foreach(source IN LISTS python_tests)
   list(APPEND together "${source}")
   list(LENGTH together count)
   if(count EQUAL BUCKENS_FILES_PER_PROCESS)
-    buckens_python_test(20 ${together})
+    buckens_python_test(${BUCKENS_PROCESS_SECONDS} ${together})
     set(together "")
   endif()
 endforeach()
 if(together)
-  buckens_python_test(20 ${together})
+  buckens_python_test(${BUCKENS_PROCESS_SECONDS} ${together})
 endif()
 # Processes that wait for each other: beside other tests they would wait for processors, too. What needs all processors
 # comes first, or the others would have to wait for it at the end.
 if(TEST cli.mpi)
   set_tests_properties(cli.mpi PROPERTIES PROCESSORS 2 COST 1000)
 endif()
-foreach(test verification_test run_store_test model_file_test linalg_test fem_test mesh_io_test)
+list(LENGTH BUCKENS_LONG_PROGRAMS length)
+math(EXPR last "${length} - 1")
+foreach(place RANGE 0 ${last} 2)
+  math(EXPR next "${place} + 1")
+  list(GET BUCKENS_LONG_PROGRAMS ${place} test)
+  list(GET BUCKENS_LONG_PROGRAMS ${next} cost)
   if(TEST ${test})
-    set_tests_properties(${test} PROPERTIES COST 70)
+    set_tests_properties(${test} PROPERTIES COST ${cost})
   endif()
 endforeach()
 
