@@ -28,7 +28,9 @@ from .verbs import (check, compare, convert, merge_sweep, mesh_info, modes, stat
 from .yaml_text import to_yaml
 
 __version__: str = _core.version
+# A list by itself: type checkers read no sum, and would take the names for private ones.
 __all__ = ["ArrayMesh", "Body", "Curve", "DifferenceError", "Error", "Frame", "InputError", "IoError", "LivePage", "Model",
            "ModelError", "NumericalError", "ResultMesh", "Results", "RunPage", "Simulation", "check", "compare",
            "continue_run", "convert", "load", "merge_sweep", "mesh_info", "modes", "open", "run", "static", "study", "sweep",
-           "sweep_status", "to_yaml", "view", "view_live"] + _parts
+           "sweep_status", "to_yaml", "view", "view_live"]
+__all__ += _parts
