@@ -4,6 +4,7 @@
 Without the plug-in (build option BUCKENS_MPI) or without mpirun only the message of that is tested.
 """
 
+import concurrent.futures
 import json
 import os
 import pathlib
@@ -59,7 +60,68 @@ simulation: {duration: 0.5 ms, step: 0.1 ms}
 output: {every: 0.1 ms, sensors: {force: {joint-force: hinge}, corner: {position: plate/corner_11}}}
 """
 
+PULL = "loads: {pull: {force: {on: cube/corner_111, value: [0, 0, 1 kN]}}}\n"
+
 several = pytest.mark.skipif(missing() or MPIRUN is None, reason="built without BUCKENS_MPI, or no mpirun")
+
+MESHES = {
+    "tet10": "bodies.block.mesh.box.element=tet10",
+    "reduction": "bodies.arm.reduction={craig-bampton: 6}",
+    "frames": "bodies.arm.frames=3",
+}
+
+
+LARGE = {
+    "tet10": ("bodies.cube.mesh.box={size: [0.1, 0.1, 0.1], divisions: [9, 9, 9], element: tet10}",),
+    "damped": ("materials.steel.damping={mass: 20, stiffness: 0.01 ms}", "bodies.cube.coupling=first-order"),
+    "iterative": ("bodies.cube.solver=iterative",),
+    "rigid interface": ("bodies.cube.interfaces.bearing.kind=rigid",),
+    # C is no sum of M and K: each step multiplies by C, too.
+    "held damping": ("bodies.cube.interfaces.bearing.kind=rigid", "materials.steel.damping={ratio: 2 %, at: [100 Hz, 20 kHz]}"),
+    # Each length of step has a factor of its own, for which M and K come together again.
+    "steps of its own": ("simulation.step=auto", "simulation.tolerance=1e-4", "simulation.duration=0.1 ms", "output.every=0.05 ms"),
+}
+
+
+TWINS = CUBE.replace("joints:", "  other:\n    like: cube\n    at: {position: [0.2, -0.05, -0.05]}\njoints:").replace(
+    "{ball: {spherical: {between: [ground, cube/bearing]}}}",
+    "{ball: {spherical: {between: [ground, cube/bearing]}}, second: {spherical: {between: [ground, other/bearing]}}}").replace(
+    "{position: cube/corner_111}", "{position: cube/corner_111}, far: {position: other/corner_111}")
+
+
+def sets(*changes):
+    return [word for change in changes for word in ("--set", change)]
+
+
+COUPLINGS = ("full", "first-order", "none")
+# Runs of one process with which others are compared: verb, model or its text, arguments.
+ALONE = {
+    "cube": ("run", CUBE, ()),
+    "3 ms": ("run", CUBE, sets("simulation.duration=3 ms")),
+    **{level: ("run", BLOCKS, sets(f"bodies.block.coupling={level}", f"bodies.arm.coupling={level}")) for level in COUPLINGS},
+    **{f"mesh {name}": ("run", BLOCKS, sets(change, "simulation.duration=20 ms")) for name, change in MESHES.items()},
+    **{f"large {name}": ("run", CUBE, sets(*changes)) for name, changes in LARGE.items()},
+    "twins": ("run", TWINS, ()),
+    "shells": ("run", SHELLS, ()),
+    "static": ("static", CUBE.replace("{spherical:", "{fixed:") + PULL, ()),
+}
+
+
+@pytest.fixture(scope="module")
+def alone(tmp_path_factory):
+    """Directories of the runs of one process, by their names. All are made at the start, two at a time, since this file has both
+    processors for itself."""
+
+    def make(place, verb, model, arguments):
+        if isinstance(model, str):
+            (place / "model.yaml").write_text(model)
+            model = "model.yaml"
+        subprocess.run([PROGRAM, verb, model, "-q", "-o", "one", *arguments], cwd=place, check=True, timeout=240, stdin=subprocess.DEVNULL)
+        return place / "one"
+
+    with concurrent.futures.ThreadPoolExecutor(2) as threads:
+        made = {name: threads.submit(make, tmp_path_factory.mktemp("alone"), *what) for name, what in ALONE.items()}
+    return lambda name: made[name].result()
 
 
 @pytest.fixture
@@ -107,14 +169,13 @@ def expect_same_stresses(several_, one):
 
 @several
 @pytest.mark.parametrize("count", [2, 3, 4])
-def test_a_large_body_is_distributed(buckens, mpirun, tmp_path, count):
+def test_a_large_body_is_distributed(alone, mpirun, tmp_path, count):
     (tmp_path / "cube.yaml").write_text(CUBE)
-    buckens("run", "cube.yaml", "-o", "one").must(0)
     must(mpirun(count, "run", "cube.yaml", "-o", "several"))
-    assert largest_difference(sensors(tmp_path / "several"), sensors(tmp_path / "one")) < 1e-9
-    expect_same_energies(tmp_path / "several", tmp_path / "one")
-    expect_same_stresses(tmp_path / "several", tmp_path / "one")
-    with h5py.File(tmp_path / "one" / "results.h5") as one, h5py.File(tmp_path / "several" / "results.h5") as several_:
+    assert largest_difference(sensors(tmp_path / "several"), sensors(alone("cube"))) < 1e-9
+    expect_same_energies(tmp_path / "several", alone("cube"))
+    expect_same_stresses(tmp_path / "several", alone("cube"))
+    with h5py.File(alone("cube") / "results.h5") as one, h5py.File(tmp_path / "several" / "results.h5") as several_:
         names = []
         one.visit(names.append)
         others = []
@@ -123,104 +184,73 @@ def test_a_large_body_is_distributed(buckens, mpirun, tmp_path, count):
 
 
 @several
-@pytest.mark.parametrize("coupling", ["full", "first-order", "none"])
+@pytest.mark.parametrize("coupling", COUPLINGS)
 @pytest.mark.parametrize("options", [DISTRIBUTED, ITERATE])
-def test_results_are_those_of_one_process(buckens, mpirun, tmp_path, coupling, options):
-    couple = ("--set", f"bodies.block.coupling={coupling}", "--set", f"bodies.arm.coupling={coupling}")
-    buckens("run", BLOCKS, "-o", "one", *couple).must(0)
-    must(mpirun(2, "run", BLOCKS, "-o", "two", *couple, *options))
+def test_results_are_those_of_one_process(alone, mpirun, tmp_path, coupling, options):
+    _, model, couple = ALONE[coupling]
+    must(mpirun(2, "run", model, "-o", "two", *couple, *options))
     limit = 1e-9 if options is DISTRIBUTED else 1e-8
-    assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < limit
-
-
-MESHES = {
-    "tet10": "bodies.block.mesh.box.element=tet10",
-    "reduction": "bodies.arm.reduction={craig-bampton: 6}",
-    "frames": "bodies.arm.frames=3",
-}
+    assert largest_difference(sensors(tmp_path / "two"), sensors(alone(coupling))) < limit
 
 
 @several
 @pytest.mark.parametrize("name", MESHES)
-def test_other_kinds_of_bodies(buckens, mpirun, tmp_path, name):
-    change = ("--set", MESHES[name], "--set", "simulation.duration=20 ms")
-    buckens("run", BLOCKS, "-o", "one", *change).must(0)
-    must(mpirun(2, "run", BLOCKS, "-o", "two", *change, *DISTRIBUTED[:2]))
-    assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < 1e-9
-
-
-LARGE = {
-    "tet10": ("bodies.cube.mesh.box={size: [0.1, 0.1, 0.1], divisions: [9, 9, 9], element: tet10}",),
-    "damped": ("materials.steel.damping={mass: 20, stiffness: 0.01 ms}", "bodies.cube.coupling=first-order"),
-    "iterative": ("bodies.cube.solver=iterative",),
-    "rigid interface": ("bodies.cube.interfaces.bearing.kind=rigid",),
-    # C is no sum of M and K: each step multiplies by C, too.
-    "held damping": ("bodies.cube.interfaces.bearing.kind=rigid", "materials.steel.damping={ratio: 2 %, at: [100 Hz, 20 kHz]}"),
-    # Each length of step has a factor of its own, for which M and K come together again.
-    "steps of its own": ("simulation.step=auto", "simulation.tolerance=1e-4", "simulation.duration=0.1 ms", "output.every=0.05 ms"),
-}
+def test_other_kinds_of_bodies(alone, mpirun, tmp_path, name):
+    _, model, change = ALONE[f"mesh {name}"]
+    must(mpirun(2, "run", model, "-o", "two", *change, *DISTRIBUTED[:2]))
+    assert largest_difference(sensors(tmp_path / "two"), sensors(alone(f"mesh {name}"))) < 1e-9
 
 
 @several
 @pytest.mark.parametrize("name", LARGE)
-def test_a_large_body_of_another_kind(buckens, mpirun, tmp_path, name):
+def test_a_large_body_of_another_kind(alone, mpirun, tmp_path, name):
     (tmp_path / "cube.yaml").write_text(CUBE)
-    change = [word for key in LARGE[name] for word in ("--set", key)]
-    buckens("run", "cube.yaml", "-o", "one", *change).must(0)
-    must(mpirun(2, "run", "cube.yaml", "-o", "two", *change))
+    must(mpirun(2, "run", "cube.yaml", "-o", "two", *sets(*LARGE[name])))
+    one = alone(f"large {name}")
     # Iterations on several processes are others than those on one.
     limit = 1e-8 if name == "iterative" else 1e-9
-    assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < limit
+    assert largest_difference(sensors(tmp_path / "two"), sensors(one)) < limit
     if name != "iterative":
-        expect_same_energies(tmp_path / "two", tmp_path / "one")
+        expect_same_energies(tmp_path / "two", one)
     factors = json.loads((tmp_path / "two" / "summary.json").read_text())["bodies"]["cube"]["factorisations"]
     assert factors == {"iterative": 0, "steps of its own": 2}.get(name, 1)
 
 
-TWINS = CUBE.replace("joints:", "  other:\n    like: cube\n    at: {position: [0.2, -0.05, -0.05]}\njoints:").replace(
-    "{ball: {spherical: {between: [ground, cube/bearing]}}}",
-    "{ball: {spherical: {between: [ground, cube/bearing]}}, second: {spherical: {between: [ground, other/bearing]}}}").replace(
-    "{position: cube/corner_111}", "{position: cube/corner_111}, far: {position: other/corner_111}")
-
-
 @several
-def test_equal_bodies_share_what_is_divided(buckens, mpirun, tmp_path):
+def test_equal_bodies_share_what_is_divided(alone, mpirun, tmp_path):
     (tmp_path / "twins.yaml").write_text(TWINS)
-    buckens("run", "twins.yaml", "-o", "one").must(0)
     must(mpirun(2, "run", "twins.yaml", "-o", "two"))
-    assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < 1e-9
-    expect_same_energies(tmp_path / "two", tmp_path / "one")
+    assert largest_difference(sensors(tmp_path / "two"), sensors(alone("twins"))) < 1e-9
+    expect_same_energies(tmp_path / "two", alone("twins"))
     counts = json.loads((tmp_path / "two" / "summary.json").read_text())["bodies"]
     assert counts["cube"]["factorisations"] + counts["other"]["factorisations"] == 1
 
 
 @several
-def test_shells(buckens, mpirun, tmp_path):
+def test_shells(alone, mpirun, tmp_path):
     (tmp_path / "plate.yaml").write_text(SHELLS)
-    buckens("run", "plate.yaml", "-o", "one").must(0)
     must(mpirun(2, "run", "plate.yaml", "-o", "two"))
     summary = json.loads((tmp_path / "two" / "summary.json").read_text())
     assert summary["bodies"]["plate"]["dof"] >= 20000, "large enough to be distributed"
     assert summary["measures"]["messages_per_step"] > 0
-    assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < 1e-9
-    expect_same_stresses(tmp_path / "two", tmp_path / "one")
+    assert largest_difference(sensors(tmp_path / "two"), sensors(alone("shells"))) < 1e-9
+    expect_same_stresses(tmp_path / "two", alone("shells"))
 
 
 @several
 @pytest.mark.parametrize("count", [2, 3, 4])
-def test_kept_solves_of_other_processes_answer(buckens, mpirun, tmp_path, count):
+def test_kept_solves_of_other_processes_answer(alone, mpirun, tmp_path, count):
     """Pairs of loads and answers are there; each run in the same number of processes combines them in the same way."""
     (tmp_path / "cube.yaml").write_text(CUBE)
-    long = ("--set", "simulation.duration=3 ms")
-    buckens("run", "cube.yaml", "-o", "one", *long).must(0)
-    must(mpirun(count, "run", "cube.yaml", "-o", "several", *long))
-    one, several_ = (json.loads((tmp_path / name / "summary.json").read_text())["bodies"]["cube"] for name in ("one", "several"))
+    reference = alone("3 ms")
+    must(mpirun(count, "run", "cube.yaml", "-o", "several", *sets("simulation.duration=3 ms")))
+    one, several_ = (json.loads((place / "summary.json").read_text())["bodies"]["cube"] for place in (reference, tmp_path / "several"))
     assert one["recycled"] >= 15
     # The same but for loads whose remainder is at its limit.
     assert abs(several_["recycled"] - one["recycled"]) <= 1
-    assert largest_difference(sensors(tmp_path / "several"), sensors(tmp_path / "one")) < 1e-9
-    expect_same_energies(tmp_path / "several", tmp_path / "one")
-    expect_same_stresses(tmp_path / "several", tmp_path / "one")
+    assert largest_difference(sensors(tmp_path / "several"), sensors(reference)) < 1e-9
+    expect_same_energies(tmp_path / "several", reference)
+    expect_same_stresses(tmp_path / "several", reference)
 
 
 @several
@@ -241,12 +271,10 @@ def test_a_killed_run_goes_on_in_another_number_of_processes(buckens, mpirun, tm
 
 
 @several
-def test_static_equilibrium_of_a_large_body(buckens, mpirun, tmp_path):
-    pull = "loads: {pull: {force: {on: cube/corner_111, value: [0, 0, 1 kN]}}}\n"
-    (tmp_path / "cube.yaml").write_text(CUBE.replace("{spherical:", "{fixed:") + pull)
-    buckens("static", "cube.yaml", "-o", "one").must(0)
+def test_static_equilibrium_of_a_large_body(alone, mpirun, tmp_path):
+    (tmp_path / "cube.yaml").write_text(ALONE["static"][1])
     must(mpirun(2, "static", "cube.yaml", "-o", "two"))
-    assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < 1e-9
+    assert largest_difference(sensors(tmp_path / "two"), sensors(alone("static"))) < 1e-9
 
 
 @several
