@@ -8,6 +8,7 @@
 #include "buckens/stepping/complementarity.h"
 #include "buckens/stepping/cone_impulse.h"
 #include "buckens/stepping/cone_newton.h"
+#include "buckens/stepping/cone_rounds.h"
 #include "buckens/stepping/large_impact.h"
 #include "buckens/stepping/step_failure.h"
 
@@ -185,33 +186,62 @@ bool do_cancel(const Matrix& D, const Vector& b, const Vector& P) {
   return !(size <= kMostCancelled * b.cwiseAbs().maxCoeff());
 }
 
+/// Impulses of one group of places that answer each other.
+class GroupSolver {
+ public:
+  GroupSolver(const Matrix& D, const Vector& b, Eigen::Index num_across,
+              const std::vector<ImpactSlip>& slips)
+      : D_(D), b_(b), places_(D, b, num_across, slips), rows_(places_.rows()) {}
+
+  /// Newton's method and places in turn. @param P start and result @return whether they are found
+  bool find_in_turn(Vector& P) const {
+    const Vector start = P;
+    const auto from_start = [&]() -> Vector& { return P = start; };
+    try {
+      for (int round = 0; round < kMostNewtonRounds; ++round) {
+        if (finish(P)) return true;
+        // Sweeps bring it on.
+        if (round == 0 || !is_good(P)) P = start;
+        const double share = round % 2 == 0 ? 1.0 : 0.5;
+        if (places_.settle(P, share, kSweepsBetween) && is_good(P)) return true;
+      }
+      return (places_.settle(from_start(), 1.0, kMostSweeps) && is_good(P)) ||
+             (places_.settle(from_start(), 0.5, kMostHalfSweeps) && is_good(P)) ||
+             (places_.agree(from_start()) && is_good(P)) ||
+             (places_.strike_in_turn(P) && is_good(P));
+    } catch (const StepFailure&) {  // one place jams by itself, with what the others do so far
+      return false;
+    }
+  }
+
+  /// All places at once, where they wedge each other. @return whether they are found
+  bool find_in_cones(Vector& P) const {
+    const auto exact = [this](Vector& near) { return finish(near); };
+    return stepping::find_in_cones(D_.sparseView(), b_, rows_, exact, P) && is_good(P);
+  }
+
+ private:
+  bool finish(Vector& P) const { return find_by_newton(D_, b_, rows_, P) && is_good(P); }
+  bool is_good(const Vector& P) const { return !do_cancel(D_, b_, P); }
+
+  const Matrix& D_;
+  const Vector& b_;
+  Places places_;
+  std::vector<ConeRows> rows_;
+};
+
 Vector solve_together(const Matrix& D, const Vector& b, Eigen::Index num_across,
                       const std::vector<ImpactSlip>& slips) {
   const auto across = Eigen::seqN(Eigen::Index{0}, num_across);
-  Vector smooth = Vector::Zero(D.rows());
+  Vector P = Vector::Zero(D.rows());
   try {
-    smooth(across) = solve_complementarity(D(across, across), b(across));
+    P(across) = solve_complementarity(D(across, across), b(across));
   } catch (const StepFailure&) {
     if (slips.empty()) throw;  // else it is a start only
   }
-  if (slips.empty()) return smooth;
-  const Places places(D, b, num_across, slips);
-  Vector P = smooth;
-  const std::vector<ConeRows> rows = places.rows();
-  const auto is_good = [&](const Vector& found) { return !do_cancel(D, b, found); };
-  for (int round = 0; round < kMostNewtonRounds; ++round) {
-    if (find_by_newton(D, b, rows, P) && is_good(P)) return P;
-    // Sweeps bring it on.
-    if (round == 0 || !is_good(P)) P = smooth;
-    if (places.settle(P, round % 2 == 0 ? 1.0 : 0.5, kSweepsBetween) && is_good(P)) return P;
-  }
-  P = smooth;
-  if (places.settle(P, 1.0, kMostSweeps) && is_good(P)) return P;
-  P = smooth;
-  if (places.settle(P, 0.5, kMostHalfSweeps) && is_good(P)) return P;
-  P = smooth;
-  if (places.agree(P) && is_good(P)) return P;
-  if (places.strike_in_turn(P) && is_good(P)) return P;
+  if (slips.empty()) return P;
+  const GroupSolver solver(D, b, num_across, slips);
+  if (solver.find_in_turn(P) || solver.find_in_cones(P)) return P;
   throw StepFailure(
       "no impulses satisfy all rigid contacts with friction that are struck at once: friction "
       "jams; give the contact a `stiffness`, or less `static`");

@@ -26,7 +26,7 @@ struct ImpactSlip {
 /// By Newton's method with sweeps between, place by place (stepping/cone_impulse.h). Where that has
 /// no end, sweeps alone; then each set with the impulses of the other one until both agree; then
 /// blow by blow, which keeps the cones and parts the bodies, but a place may have rubbed before it
-/// stuck.
+/// stuck; then, where places wedge each other, by convex problems (stepping/cone_rounds.h).
 /// Places that answer each other are solved together, others by themselves; many of them as in
 /// stepping/large_impact.h.
 /// @param D of all rows, positive semidefinite, @param b of slips: minus the speed of slip before

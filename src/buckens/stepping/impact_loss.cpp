@@ -2,12 +2,23 @@
 // What impacts lose. Theory: docs/theory/23-impacts.md §2.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "buckens/stepping/impacts.h"
 
 namespace buckens::stepping {
 
 using linalg::Vector;
+
+namespace {
+
+// Energy that impulses give bodies, by what they take from them: 1 where all of it is returned.
+// What accelerates bodies between the instant of the impact and the end of the step, and
+// restitution that depends on friction, may make it a little more; wedges made it thousands of
+// times as much.
+constexpr double kMostGiven = 1.25;
+
+}  // namespace
 
 double Impacts::rate_of(const dynamics::SystemRow& row,
                         const std::vector<dynamics::BodyMotion>& motions) {
@@ -55,6 +66,32 @@ double Impacts::loss_of_slip(const Slip& slip, double P, double jump) const {
   const double share =
       holds && slip.speed != 0.0 ? std::clamp(slip.at_impact / slip.speed, 0.0, 1.0) : 1.0;
   return -0.5 * share * P * (slip.at_impact + after);
+}
+
+std::vector<Eigen::Index> Impacts::gaining(const Vector& P, const Vector& jump,
+                                           const std::vector<dynamics::BodyMotion>& end) const {
+  struct Exchange {
+    double taken = 0, given = 0;  // what stops the bodies, and what moves them then [J]
+    bool has_mesh = false;
+  };
+  std::map<std::size_t, Exchange> exchanges;  // by island
+  const auto touch_of = [&](std::size_t k) -> const Touch& {
+    return touches_[k < touches_.size() ? k : slips_[k - touches_.size()].touch];
+  };
+  for (std::size_t k = 0; k < num_pushes(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    Exchange& own = exchanges[island_of(touch_of(k))];
+    own.taken -= P[i] * rate_of(push(k).row, end);
+    own.given += 0.5 * P[i] * jump[i];
+    own.has_mesh = own.has_mesh || moves_mesh(laws_[touch_of(k).law]);
+  }
+  std::vector<Eigen::Index> out;
+  for (std::size_t k = 0; k < touches_.size(); ++k) {
+    const Exchange& own = exchanges[island_of(touches_[k])];
+    if (own.has_mesh || !(own.given > kMostGiven * own.taken)) continue;
+    out.push_back(static_cast<Eigen::Index>(k));
+  }
+  return out;
 }
 
 void Impacts::lose(std::size_t load, double energy) {

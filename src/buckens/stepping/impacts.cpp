@@ -161,8 +161,9 @@ bool Impacts::strike(const std::vector<dynamics::BodyMotion>& then,
       if (stop_bouncing(jammed)) return false;
       P = solve(D, nullptr);  // says what cannot be solved
     }
-    move_bodies(P);
     const Vector jump = D * P;
+    if (stop_bouncing(gaining(P, jump, then))) return false;
+    move_bodies(P);
     land(P, jump);
     lose(P, jump, then);
     clear_ends(P, then, rows_in_use, memory, t);

@@ -192,6 +192,10 @@ class Impacts {
   void lose(const linalg::Vector& P, const linalg::Vector& jump,
             const std::vector<dynamics::BodyMotion>& end);
   void lose(std::size_t load, double energy);
+  /// Rows of the stops that reach each other by impulses that give bodies more than they take from
+  /// them: restitution that wedges drive up. @param end as for lose()
+  std::vector<Eigen::Index> gaining(const linalg::Vector& P, const linalg::Vector& jump,
+                                    const std::vector<dynamics::BodyMotion>& end) const;
   /// The same of one touch and one slip where meshes take part, from rates alone.
   double loss_on_mesh(const Touch& touch, double P, double jump) const;
   double loss_of_slip(const Slip& slip, double P, double jump) const;

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/SparseLU>
 #include <fmt/format.h>
 
 #include "buckens/stepping/cone_impulse.h"
+#include "buckens/stepping/cone_rounds.h"
 #include "buckens/stepping/step_failure.h"
 
 namespace buckens::stepping {
@@ -39,6 +41,7 @@ class ManyPlaces {
  public:
   ManyPlaces(const linalg::SparseMatrix& D, const Vector& b, const std::vector<ConeRows>& places)
       : D_(D),
+        given_(D),
         sizes_(D_.cwiseAbs()),
         b_(b),
         places_(places),
@@ -62,20 +65,9 @@ class ManyPlaces {
 
   Vector solve() {
     Vector P = Vector::Zero(b_.size());
-    int jams = 0;
-    for (int round = 0; round < kRounds; ++round) {
-      try {
-        const double share = round % 2 == 0 ? 1.0 : 0.5;
-        if (sweep(P, share, kSweepsInRound) && is_good(P)) return P;
-      } catch (const StepFailure&) {  // one place by itself, with what the others do so far
-        if (++jams == kMostJams) throw;
-      }
-      Vector trial = P;
-      if (find_by_newton(trial) && is_good(trial)) return trial;
-      if (!is_good(P)) P.setZero();
-    }
-    const bool is_closed = sweep(P, 1.0, kLastSweeps) || open(P) <= kNearlyClosed * size_of(P);
-    if (is_closed && is_good(P)) return P;
+    if (find_in_turn(P)) return P;
+    const auto exact = [this](Vector& near) { return find_by_newton(near) && is_good(near); };
+    if (rubs_ && find_in_cones(given_, b_, places_, exact, P) && is_good(P)) return P;
     throw StepFailure(fmt::format(
         "no impulses were found that satisfy all {} rigid contacts that press each other at once; "
         "give them a `stiffness`, or less `static`",
@@ -95,6 +87,30 @@ class ManyPlaces {
   double open(const Vector& P) {
     form(P);
     return F_.cwiseAbs().maxCoeff();
+  }
+
+  /// Newton's method, and places in turn. @param P start and result @return whether they are found
+  bool find_in_turn(Vector& P) {
+    int jams = 0;
+    for (int round = 0; round < kRounds; ++round) {
+      try {
+        const double share = round % 2 == 0 ? 1.0 : 0.5;
+        if (sweep(P, share, kSweepsInRound) && is_good(P)) return true;
+      } catch (const StepFailure&) {  // one place by itself, with what the others do so far
+        if (++jams == kMostJams) return false;
+      }
+      Vector trial = P;
+      if (find_by_newton(trial) && is_good(trial)) {
+        P = std::move(trial);
+        return true;
+      }
+      if (!is_good(P)) P.setZero();
+    }
+    try {
+      return (sweep(P, 1.0, kLastSweeps) || open(P) <= kNearlyClosed * size_of(P)) && is_good(P);
+    } catch (const StepFailure&) {
+      return false;
+    }
   }
 
   /// Each place's impulses in turn, with those of the others. @return whether all agree
@@ -201,7 +217,9 @@ class ManyPlaces {
     }
   }
 
-  RowsOfAnswers D_, sizes_;
+  RowsOfAnswers D_;
+  const linalg::SparseMatrix& given_;  // D
+  RowsOfAnswers sizes_;
   const Vector& b_;
   const std::vector<ConeRows>& places_;
   double none_;

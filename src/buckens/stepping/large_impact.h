@@ -12,9 +12,9 @@ namespace buckens::stepping {
 ///
 /// Newton's method of stepping/cone_newton.h with sparse factors, and sweeps over the places where
 /// it gains nothing: the cost of both follows the number of pairs of places on a common body. What
-/// places share is not quite shared alike.
+/// places share is not quite shared alike. At last by convex problems (stepping/cone_rounds.h).
 /// @param D of all rows, positive semidefinite
-/// @throws StepFailure where both do not come to an end, or only with impulses that cancel each
+/// @throws StepFailure where none of them comes to an end, or only with impulses that cancel each
 /// other: friction that jams
 linalg::Vector solve_large_impact(const linalg::SparseMatrix& D, const linalg::Vector& b,
                                   const std::vector<ConeRows>& places);
