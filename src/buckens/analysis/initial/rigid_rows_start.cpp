@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <string>
 
 #include <fmt/format.h>
@@ -188,7 +189,7 @@ bool settle_rough(const model::Model& model, const dynamics::MassMetric& metric,
     state = start;
     if (!settle_in_rounds(model, metric, rows_in_use, &contacts, state, unrest)) return false;
   }
-  return !contacts.are_sudden(state);
+  return !contacts.are_sudden(state, state.last_step);
 }
 
 /// @throws NumericalError naming a rigid contact with friction where they jam over the step, too
@@ -197,6 +198,15 @@ void hold_over_step(const model::Model& model, RoughContacts& contacts, model::S
 } catch (const NumericalError& failure) {
   throw NumericalError(fmt::format("load \"{}\" at t = {:.6g} s: {}",
                                    find_rough_contact(model)->name, state.t, failure.what()));
+}
+
+/// At the start of a run, before any step: what is at rest has forces over the shortest of times.
+/// @return whether they exist, and do not just stop what moves
+bool hold_over_instant(RoughContacts& contacts, model::State& state) try {
+  contacts.hold_over(RoughContacts::kInstant, state);
+  return !contacts.are_sudden(state, RoughContacts::kInstant);
+} catch (const NumericalError&) {
+  return false;
 }
 
 }  // namespace
@@ -209,17 +219,20 @@ void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& me
   } else {
     const model::State start = state;
     RoughContacts contacts(model, metric, rows_in_use);
+    std::exception_ptr jam;
     try {
       if (settle_rough(model, metric, rows_in_use, contacts, state, unrest)) return;
     } catch (const NumericalError&) {
-      if (!(start.last_step > 0.0)) throw;
+      jam = std::current_exception();
     }
     // At the instant there are none, or such as no step could go on with.
+    state = start;
     if (start.last_step > 0.0) {
-      state = start;
       hold_over_step(model, contacts, state);
       return;
     }
+    if (hold_over_instant(contacts, state)) return;
+    if (jam) std::rethrow_exception(jam);
   }
   if (unrest.moved.empty()) {
     throw NumericalError(fmt::format(

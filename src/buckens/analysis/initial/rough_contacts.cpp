@@ -67,7 +67,7 @@ void RoughContacts::hold_over(double span, model::State& state) {
   settle_accelerations(model_, metric_, rows_in_use_, state, cones_.rows());
 }
 
-bool RoughContacts::are_sudden(const model::State& state) const {
+bool RoughContacts::are_sudden(const model::State& state, double span) const {
   constexpr double kByWeight = 5.0;
   dynamics::Forces forces;
   dynamics::evaluate_forces(model_, dynamics::motions_of(model_, state), state.t,
@@ -83,7 +83,7 @@ bool RoughContacts::are_sudden(const model::State& state) const {
     const double turning = model_.bodies[b].length_scale() * body.w_dot.norm();
     change = std::max({change, body.v_dot.norm(), turning});
   }
-  return (change - kByWeight * model_.gravity.norm()) * state.last_step > speed;
+  return (change - kByWeight * model_.gravity.norm()) * span > speed;
 }
 
 void RoughContacts::foresee(const std::vector<dynamics::BodyMotion>& motions,

@@ -33,10 +33,10 @@ class RoughContacts {
   /// one that there is cannot be told from the others.
   /// @param span [s]
   void hold_over(double span, model::State& state);
-  /// Whether accelerations would change velocities within a step of the last length by more than
-  /// there is of slip, and by more than comes of weight. Near a jam forces of an instant grow
-  /// without bound, which would last for that instant only.
-  bool are_sudden(const model::State& state) const;
+  /// Whether accelerations would change velocities within a span by more than there is of slip, and
+  /// by more than comes of weight. Near a jam forces of an instant grow without bound, which would
+  /// last for that instant only. @param span of a step [s]
+  bool are_sudden(const model::State& state, double span) const;
 
  private:
   void write(model::State& state) const;
