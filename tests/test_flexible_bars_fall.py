@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Flexible bars that fall on the floor and stay there, with friction at their ends."""
 
+import json
+
 import pytest
 
 
@@ -33,12 +35,22 @@ def test_a_bar_that_falls_is_not_thrown_up(sensors, step):
     out = sensors(bar("planar: zx", "70 GPa", 0.35, 15.2, "restitution: 0, static: 0.3", [-0.5, 0, -2.8], 2.1, step))
     start = out["moving"][0]
     assert 3 < start < 4
-    # It fell by 0.1 m, 0.8 J. What the method does on stops that let go is not explained (theory
-    # 23 §4), 1.3 times the energy at 1 ms; the vibration of an end, taken for its acceleration over
-    # a whole step, threw it up with 10 000 times of it.
-    assert out["moving"].max() < 2.5 * start
-    assert abs(out["balance"]).max() < 2 * start
+    # It falls by less than 0.1 m, 0.8 J, and nothing else is gained; the vibration of an end, taken
+    # for its acceleration over a whole step, threw it up with 10 000 times of it.
+    assert out["moving"].max() < start + 0.8
+    # Left is what the method damps by its rho-inf of 0.9, and what single landings store more than
+    # they take, measured 0.05 to 0.15 J; ends that pushed on as they let go gave 0.8 to 1.1 J.
+    assert abs(out["balance"]).max() < 0.05 * start
     assert out["end.z"].max() < 0.5
+
+
+@pytest.mark.parametrize("step", ["1 ms", "0.1 ms"])
+def test_a_soft_bar_that_falls_and_stays_keeps_its_balance(sensors, step):
+    """Ends that let go pushed on with the forces of unresolved vibrations: 0.8 and 0.3 J from nowhere, of 3.9 J."""
+    out = sensors(bar("", "2 GPa", 0.3, 10, "restitution: 0", [0, 0, -3], 1, f"{step}, rho-inf: 1").replace("0.2 s", "0.3 s"))
+    assert out["lost"][-1] > 1.5
+    # Measured: 0.5 and at most 21 mJ, of single landings that store more than they take.
+    assert abs(out["balance"]).max() < 0.01 * out["moving"][0]
 
 
 def test_what_blows_on_a_soft_bar_take_hardly_depends_on_the_step(sensors):
@@ -74,3 +86,31 @@ def test_an_arm_that_bends_over_its_stop_is_not_lifted(sensors):
     assert out["moving"].max() > 0.5
     # Measured: 0.7 %.
     assert abs(out["balance"]).max() < 0.02 * out["moving"].max()
+
+
+def test_an_arm_that_falls_on_its_stop_lies_there_and_converges(sensors, buckens, tmp_path):
+    """One impact, after which the stop is a joint; what bends goes on as if it had been one from the instant of the blow."""
+    runs = {}
+    for step in ("0.4 ms", "0.2 ms", "0.1 ms", "0.02 ms"):
+        text = ARM.replace("restitution: 0.001", "restitution: 0").replace("balance: {", "end: {position: bar/end}, lost: {energy: dissipated}, balance: {")
+        runs[step] = sensors(text, "--set", f"simulation.step={step}")
+        assert json.loads((tmp_path / "out" / "summary.json").read_text())["measures"]["impacts"] == 1
+        assert abs(runs[step]["balance"]).max() < 1e-3 * runs[step]["moving"].max()
+    off = [abs(runs[step]["end.z"] - runs["0.02 ms"]["end.z"]).max() for step in ("0.4 ms", "0.2 ms", "0.1 ms")]
+    # Of first order at least, with a factor that depends on where in a step the blow falls.
+    assert off[1] < 0.8 * off[0] and off[2] < 0.8 * off[1] and off[2] < 0.35 * off[0]
+
+
+def test_a_bar_with_damping_comes_to_rest_on_the_floor(sensors, tmp_path):
+    text = bar("", "2 GPa", 0.03, 1, "restitution: 0, static: 0.3", [0, 0, 0], 0, "1 ms").replace(
+        "rho: 2700 kg/m^3}", "rho: 2700 kg/m^3, damping: {stiffness: 2e-4 s}}").replace(
+        "sensors: {", "sensors: {a: {contact: start}, b: {contact: end}, ")
+    counts = []
+    for duration in ("2 s", "3 s"):
+        out = sensors(text.replace("0.2 s", duration))
+        counts.append(json.loads((tmp_path / "out" / "summary.json").read_text())["measures"]["impacts"])
+    # It bounces by its own vibrations, and then lies with half of its weight on either end.
+    assert counts[1] == counts[0] < 60
+    weight = 2700 * 3.141592653589793e-4 * 9.81
+    assert out["a.normal"][-1] == pytest.approx(weight / 2, rel=1e-2) and out["b.normal"][-1] == pytest.approx(weight / 2, rel=1e-2)
+    assert abs(out["balance"]).max() < 0.02 * out["lost"][-1]

@@ -11,7 +11,10 @@ Action RigidLaw::evaluate(double /*t*/, const spatial::MarkerMotion& /*first*/,
 Action RigidLaw::respond(const Sight& sight) const {
   Action out;
   out.row = row(sight);
-  const double force = out.row.is_closed ? sight.stand.force : out.row.given;
+  // Closed at the start of the step and open now, it takes back what it has pushed since.
+  const bool lets_go = sight.stand.regime == 0 && sight.states != nullptr && sight.states[0] != 0.0;
+  const bool has_own = out.row.is_closed || lets_go;
+  const double force = has_own ? sight.stand.force : out.row.given;
   const spatial::PairRow wrench = force * sight.coordinate.J;
   out.on_first = {wrench.segment<3>(0).transpose(), wrench.segment<3>(3).transpose()};
   out.on_second = {wrench.segment<3>(6).transpose(), wrench.segment<3>(9).transpose()};
@@ -31,7 +34,8 @@ void RigidLaw::append_tangent(const Sight& sight, std::vector<SoftRow>& rows) co
 
 void RigidLaw::find_states(const Sight& sight, double* states) const {
   states[0] = sight.stand.regime;
-  states[1] = respond(sight).along_coordinate;
+  const Action now = respond(sight);
+  states[1] = now.row.is_closed ? now.along_coordinate : now.row.given;
 }
 
 void CoordinateLock::find_states(const Sight& sight, double* states) const {

@@ -94,6 +94,25 @@ std::vector<Eigen::Index> Impacts::gaining(const Vector& P, const Vector& jump,
   return out;
 }
 
+bool Impacts::stay_on_meshes() const {
+  bool has_any = false;
+  for (const Touch& touch : touches_) {
+    if (touch.is_of_step) return false;
+    has_any = has_any || (touch.strikes && moves_mesh(laws_[touch.law]));
+  }
+  return has_any;
+}
+
+void Impacts::lose_in_all(double energy) {
+  const double known = loss_;
+  loss_ = std::max(0.0, energy);
+  if (known > 0.0) {
+    for (ImpactShare& share : shares_) share.energy *= loss_ / known;
+    return;
+  }
+  for (ImpactShare& share : shares_) share.energy = loss_ / static_cast<double>(shares_.size());
+}
+
 void Impacts::lose(std::size_t load, double energy) {
   loss_ += energy;
   shares_.push_back({load, energy});

@@ -59,7 +59,7 @@ Impacts::Impacts(const model::Model& model, const Scheme& scheme,
     interface_.push_back(impulse_compliance(scheme, answers_[b]));
     jumps_.emplace_back();
   }
-  with_mesh_ = mesh_partners(model, interface_);
+  with_mesh_ = mesh_partners(model);
   is_free_.assign(model.bodies.size(), 1);
   for (const model::Joint& joint : model.joints) {
     for (const int body : bodies_of(model, joint)) is_free_[static_cast<std::size_t>(body)] = 0;
@@ -119,6 +119,9 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
   find_islands();
   // What the blow presses together, as a stack on the floor, is hit at the same instant.
   for (Touch& touch : touches_) {
+    // What it holds on a mesh goes on from there as well.
+    const bool goes_on = touch.stays && !touch.strikes && moves_mesh(laws_[touch.law]);
+    if (goes_on) touch.rest = strongest_near(touch).rest;
     if (touch.stays || touch.approach > 0.0 || touch.is_of_step) continue;
     touch.stays = true;
     touch.rest = strongest_near(touch).rest;

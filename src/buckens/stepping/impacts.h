@@ -63,6 +63,11 @@ class Impacts {
     int regime;
   };
   const std::vector<Landing>& landings() const { return landings_; }
+  /// Whether something strikes with a mesh and stays there, and nothing leaves one again: then
+  /// what all lose is the energy that the jumps take.
+  bool stay_on_meshes() const;
+  /// Shares out what all of them lose [J]; a gain is left to the balance.
+  void lose_in_all(double energy);
   /// Energy lost in the impacts found last [J], and their number.
   double loss() const { return loss_; }
   /// What of it each of the laws lost.

@@ -19,10 +19,11 @@ std::vector<int> bodies_of(const model::Model& model, const model::Joint& joint)
   return out;
 }
 
-std::vector<char> mesh_partners(const model::Model& model,
-                                const std::vector<linalg::Matrix>& compliance) {
+std::vector<char> mesh_partners(const model::Model& model) {
   std::vector<char> out;
-  for (const linalg::Matrix& own : compliance) out.push_back(own.size() > 0 ? 1 : 0);
+  for (const body::Body& own : model.bodies) {
+    out.push_back(own.is_flexible() && !own.flexible->is_quasi_static ? 1 : 0);
+  }
   const auto is_in = [&](int body) { return out[static_cast<std::size_t>(body)] != 0; };
   std::vector<std::vector<int>> joined;
   for (const model::Joint& joint : model.joints) joined.push_back(bodies_of(model, joint));

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "buckens/linalg/matrix_types.h"
 #include "buckens/model/model.h"
 
 namespace buckens::stepping {
@@ -13,8 +12,6 @@ std::vector<int> bodies_of(const model::Model& model, const model::Joint& joint)
 
 /// Which bodies deform by themselves, or are connected by joints with one that does: one entry for
 /// each body, not zero for these.
-/// @param compliance of each body's interface, empty where it does not deform by itself
-std::vector<char> mesh_partners(const model::Model& model,
-                                const std::vector<linalg::Matrix>& compliance);
+std::vector<char> mesh_partners(const model::Model& model);
 
 }  // namespace buckens::stepping

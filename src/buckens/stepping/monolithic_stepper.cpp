@@ -149,7 +149,7 @@ void MonolithicStepper::start(const model::State& state) {
   lambda_ = state.lambda;
   inputs_ = state.inputs;
   memory_ = state.memory;
-  rigid_.start(memory_);
+  rigid_.start(memory_, scheme_.undone_at_end());
   for (std::size_t k = 0; k < rigid_.stands().size(); ++k) {
     z_[first_rigid_ + static_cast<int>(k)] = scheme_.force * rigid_.stands()[k].force;
   }

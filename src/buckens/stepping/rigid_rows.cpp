@@ -4,30 +4,55 @@
 #include <algorithm>
 
 #include "buckens/loads/contact_friction.h"
+#include "buckens/loads/rigid_law.h"
+#include "buckens/stepping/mesh_partners.h"
 
 namespace buckens::stepping {
 
 namespace {
 // Rigid rows with less of their own than this share hold what others hold.
 constexpr double kTheSame = 1e-11;
+
+// What a row that a mesh takes part in holds: an end, which only pushes, or a direction of friction
+// there. Open, neither does anything.
+enum : char { kNothing, kEnd, kAlong };
+
+char held_by(const model::Load& load) {
+  const auto& law = static_cast<const loads::RigidLaw&>(*load.element);
+  return law.contact(0.0).regime != 0 ? kEnd : law.row_of_place() > 0 ? kAlong : kNothing;
+}
+
+/// Whether a row does the other way at the end of a step than over the whole of it, where
+/// vibrations of a mesh turn within the step. @param released see RigidRows::open()
+bool turns_at_end(double force, double released) { return force * (force - released) < 0.0; }
+
 }  // namespace
 
 RigidRows::RigidRows(const model::Model& model) {
+  const std::vector<char> with_mesh = mesh_partners(model);
+  const auto is_mesh = [&](int body) {
+    return body != model::kGround && with_mesh[static_cast<std::size_t>(body)] != 0;
+  };
   for (const model::Load& load : model.loads) {
     if (load.rigid_row < 0) continue;
     first_states_.push_back(load.first_state);
     loads_.push_back(static_cast<std::size_t>(&load - model.loads.data()));
+    const bool moves_mesh = is_mesh(load.first.body) || is_mesh(load.second.body);
+    is_on_mesh_.push_back(moves_mesh ? held_by(load) : kNothing);
   }
   stands_.resize(first_states_.size());
+  released_.resize(first_states_.size());
   regimes_at_start_.resize(first_states_.size());
 }
 
-void RigidRows::start(const model::RowMemory& memory) {
+void RigidRows::start(const model::RowMemory& memory, double undone) {
   for (std::size_t k = 0; k < stands_.size(); ++k) {
     stands_[k] = {static_cast<int>(memory.laws[first_states_[k]]),
                   memory.laws[first_states_[k] + 1]};
     // What an event has switched off holds nothing.
     if (memory.is_off(loads_[k])) stands_[k] = {};
+    const bool takes_back = is_on_mesh_[k] != kNothing && stands_[k].regime != 0;
+    released_[k] = takes_back ? -undone * stands_[k].force : 0.0;
     regimes_at_start_[k] = stands_[k].regime;
   }
   num_moves_ = 0;
@@ -38,10 +63,15 @@ bool RigidRows::move(const std::vector<loads::RigidRow>& rows,
   bool has_moved = false;
   for (std::size_t k = 0; k < stands_.size(); ++k) {
     if (!decided_elsewhere.empty() && decided_elsewhere[k] != 0) continue;
-    const loads::RowStand next = rows[k].next;
+    loads::RowStand next = rows[k].next;
+    // A row on a mesh lets go if it has pulled over the step, not if it pulls at its end.
+    const bool is_held = stands_[k].regime != 0 && stands_[k].regime == regimes_at_start_[k];
+    if (is_held && is_on_mesh_[k] == kEnd && turns_at_end(stands_[k].force, released_[k])) {
+      next = next.regime == 0 ? stands_[k] : open(k);
+    }
     const bool is_other = next.regime != stands_[k].regime;
     has_moved = has_moved || is_other;
-    if (is_other) stands_[k] = next;
+    if (is_other) stands_[k] = next.regime == 0 ? open(k) : next;
   }
   if (has_moved) ++num_moves_;
   return has_moved;
@@ -53,6 +83,7 @@ bool RigidRows::let_go(const std::vector<loads::RigidRow>& rows) {
     if (!rows[k].has_gone) continue;
     has_changed = has_changed || stands_[k].regime != 0;
     stands_[k] = {};
+    released_[k] = 0.0;  // it was along the row of another place
   }
   return has_changed;
 }
@@ -60,12 +91,15 @@ bool RigidRows::let_go(const std::vector<loads::RigidRow>& rows) {
 bool RigidRows::put(int row, const loads::RowStand& stand) {
   loads::RowStand& own = stands_[static_cast<std::size_t>(row)];
   const bool is_other = own.regime != stand.regime;
-  own = stand;
+  own = stand.regime == 0 ? open(static_cast<std::size_t>(row)) : stand;
   return is_other;
 }
 
 bool RigidRows::have_changed() const {
   for (std::size_t k = 0; k < stands_.size(); ++k) {
+    // What pulls at the end lets go there.
+    const bool is_end = stands_[k].regime != 0 && is_on_mesh_[k] == kEnd;
+    if (is_end && turns_at_end(stands_[k].force, released_[k])) return true;
     // A direction of sliding that the step has held is no other regime.
     if (std::min(stands_[k].regime, loads::ContactFriction::kHeldDirection - 1) !=
         regimes_at_start_[k]) {

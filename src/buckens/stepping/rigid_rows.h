@@ -18,7 +18,9 @@ class RigidRows {
 
   bool empty() const { return first_states_.empty(); }
   /// Takes the stands that a state remembers.
-  void start(const model::RowMemory& memory);
+  /// @param undone share of its force with which a row on a mesh that lets go takes back what it
+  /// has pushed since the start of the step; 0 outside of steps
+  void start(const model::RowMemory& memory, double undone = 0.0);
   /// One per Load::rigid_row, in memory that stays in place.
   const std::vector<loads::RowStand>& stands() const { return stands_; }
   void add_force(int row, double change) { stands_[static_cast<std::size_t>(row)].force += change; }
@@ -40,9 +42,14 @@ class RigidRows {
   bool have_changed() const;
 
  private:
+  /// How a row stands open: with a force of its own in a step in which it lets go.
+  loads::RowStand open(std::size_t row) const { return {0, released_[row]}; }
+
   std::vector<int> first_states_;   // in RowMemory::laws, per rigid row
   std::vector<std::size_t> loads_;  // index into Model::loads, per rigid row
+  std::vector<char> is_on_mesh_;    // per rigid row: what it holds where a mesh takes part
   std::vector<loads::RowStand> stands_;
+  std::vector<double> released_;  // what a row has if it lets go in this step
   std::vector<int> regimes_at_start_;
   int num_moves_ = 0;
 };

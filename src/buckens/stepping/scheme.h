@@ -56,6 +56,9 @@ class Scheme {
   double weight;                    ///< θ: x_e = x + θ Δ + offset; 1, 1/2 or Wilson's θ³
   double instant;                   ///< equations hold at t + instant·h; 1, 1/2 or Wilson's θ
 
+  /// Of a force that has acted until the start of a step: with minus this share of it at the end it
+  /// has done nothing to the velocity there (1 without numerical damping).
+  double undone_at_end() const { return h * acceleration_rate / end_rate - 1.0; }
   double evaluation_time(double t) const { return t + instant * h; }
   /// Whether x_e depends on rate and acceleration at the start beyond Δ.
   bool has_offset() const { return method == Method::wilson; }

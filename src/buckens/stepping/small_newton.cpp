@@ -98,7 +98,7 @@ void SmallNewton::use(const dynamics::Circumstances& around) {
   }
   held_.release();
   if (rigid_.empty()) return;
-  rigid_.start(*around.memory);
+  rigid_.start(*around.memory, scheme_.undone_at_end());
   around_.stands = &rigid_.stands();
 }
 

@@ -183,7 +183,9 @@ bool SmallNewton::let_jumping_go(double change) {
     worst = soft_.rigid[k];
   }
   if (worst < 0) return false;
-  rigid_.put(worst, {});
+  std::vector<loads::RigidRow> gone(forces_.rigid.size());
+  gone[static_cast<std::size_t>(worst)].has_gone = true;
+  rigid_.let_go(gone);
   cones_.follow(worst, rigid_);
   return true;
 }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/dynamics/energy.h"
 #include "buckens/dynamics/row_memory.h"
 #include "buckens/spatial/rotation.h"
 #include "buckens/stepping/change_of_step.h"
@@ -308,7 +309,10 @@ void Stepper::take_impacts(StepReport& report) {
   const std::vector<dynamics::BodyMotion>& before = newton_->motions_at_end();
   if (!impacts_->find(before, bodies_, newton_->rows_in_use(), newton_->around(), next_.t)) return;
   std::vector<dynamics::BodyMotion> motions = before;
+  const bool counts_energy = impacts_->stay_on_meshes();
+  const double energy = counts_energy ? dynamics::energy(model_, next_).total() : 0.0;
   for (std::size_t b = 0; b < bodies_.size(); ++b) add_jump(b, impacts_->jumps()[b], motions[b]);
+  if (counts_energy) impacts_->lose_in_all(energy - dynamics::energy(model_, next_).total());
   model::RowMemory memory;
   dynamics::advance_memory(model_, motions, next_.t, newton_->around(), memory);
   for (const Impacts::Landing& landing : impacts_->landings()) {
