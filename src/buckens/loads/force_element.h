@@ -14,6 +14,8 @@ namespace buckens::loads {
 struct RowStand {
   int regime = 0;
   double force = 0;  ///< along the joint coordinate [N] or [N m]
+  /// Of an open row that lets go within the step: what takes back its push, (I8).
+  double taken_back = 0;
 };
 
 /// A row that does not give way: while it is closed its force is whatever keeps it closed.

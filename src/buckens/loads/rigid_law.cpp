@@ -11,8 +11,9 @@ Action RigidLaw::evaluate(double /*t*/, const spatial::MarkerMotion& /*first*/,
 Action RigidLaw::respond(const Sight& sight) const {
   Action out;
   out.row = row(sight);
-  // Closed at the start of the step and open now, it takes back what it has pushed since.
-  const bool lets_go = sight.stand.regime == 0 && sight.states != nullptr && sight.states[0] != 0.0;
+  // Only within the step in which it lets go: closed at its start.
+  const bool lets_go =
+      sight.stand.taken_back != 0.0 && sight.states != nullptr && sight.states[0] != 0.0;
   const bool has_own = out.row.is_closed || lets_go;
   const double force = has_own ? sight.stand.force : out.row.given;
   const spatial::PairRow wrench = force * sight.coordinate.J;

@@ -43,7 +43,7 @@ class RigidRows {
 
  private:
   /// How a row stands open: with a force of its own in a step in which it lets go.
-  loads::RowStand open(std::size_t row) const { return {0, released_[row]}; }
+  loads::RowStand open(std::size_t row) const { return {0, released_[row], released_[row]}; }
 
   std::vector<int> first_states_;   // in RowMemory::laws, per rigid row
   std::vector<std::size_t> loads_;  // index into Model::loads, per rigid row
