@@ -88,6 +88,16 @@ def test_an_arm_that_bends_over_its_stop_is_not_lifted(sensors):
     assert abs(out["balance"]).max() < 0.02 * out["moving"].max()
 
 
+@pytest.mark.parametrize("restitution", [0.01, 0.5])
+def test_numerical_damping_gives_no_energy_where_accelerations_are_found_anew(sensors, restitution):
+    """Accelerations of vibrations that the step does not resolve, found anew at each of 80 blows, gave 1.25 J at 1 ms."""
+    out = sensors(ARM.replace("rho-inf: 1}", "rho-inf: 0.9}"), "--set", "simulation.step=1 ms", "--set",
+                  f"loads.a.hinge-stop.restitution={restitution}")
+    # Measured: 6 % where the arm bends over its stop at each step.
+    assert abs(out["balance"]).max() < 0.1 * out["moving"].max()
+    assert out["moving"].max() < 0.82
+
+
 def test_an_arm_that_falls_on_its_stop_lies_there_and_converges(sensors, buckens, tmp_path):
     """One impact, after which the stop is a joint; what bends goes on as if it had been one from the instant of the blow."""
     runs = {}

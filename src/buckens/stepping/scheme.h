@@ -136,6 +136,8 @@ class Scheme {
   bool has_algorithmic() const {
     return method == Method::generalized_alpha || method == Method::hht;
   }
+  /// Whether vibrations that the step does not resolve are damped.
+  bool damps() const { return has_algorithmic() && gamma_ > 0.5; }
   /// Offset of the algorithmic acceleration: it approximates ẍ(t + offset·h). It has to be rescaled
   /// when h changes; see rescale_algorithmic().
   double algorithmic_offset() const { return alpha_m_ - alpha_f_; }

@@ -349,6 +349,17 @@ void Stepper::add_jump(std::size_t b, const BodyJump& jump, dynamics::BodyMotion
   motion.y_dot.head(jump.impulse.size()) = N.topRows(jump.impulse.size()) * s.d_dot;
 }
 
+void Stepper::filter_algorithmic(model::State& state) {
+  if (!scheme_.damps()) return;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!flexible_[b] || operators_[b]->is_quasi_static()) continue;
+    model::BodyState& s = state.bodies[b];
+    s.d_alg = scheme_.mass * (model_.bodies[b].flexible->fe.M * s.d_ddot);
+    operators_[b]->solve_right_side(s.d_alg, pool_.get());
+    operators_[b]->sieve().apply(s.d_alg);
+  }
+}
+
 linalg::Matrix Stepper::impulse_compliance(std::size_t body) const {
   return Impacts::impulse_compliance(scheme_, operators_[body].get());
 }

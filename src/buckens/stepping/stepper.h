@@ -94,6 +94,10 @@ class Stepper {
   linalg::Matrix impulse_compliance(std::size_t body) const;
   /// Adds the same for all nodal rates.
   void add_impulse(std::size_t body, const linalg::Vector& impulse, linalg::Vector& rates) const;
+  /// For algorithmic accelerations of meshes that are the true ones, as where these have been found
+  /// anew: takes out of them what the step does not resolve, if the method damps, (I9). One solve
+  /// per mesh.
+  void filter_algorithmic(model::State& state);
   const Scheme& scheme() const { return scheme_; }
   /// Joint rows in use at the last step.
   const std::vector<int>& rows_in_use() const { return newton_->rows_in_use(); }
