@@ -84,7 +84,7 @@ bool is_open_place(const model::Model& model, std::size_t load, const Circumstan
     const double* const states =
         has_memory ? around.memory->laws.data() + model.loads[k].first_state : nullptr;
     const loads::RowStand stand = stand_of(model, k, around, states);
-    return stand.regime == 0 && stand.force == 0.0;
+    return stand.regime == 0 && stand.force == 0.0 && stand.taken_back == 0.0;
   };
   return is_open(load) && (row == 0 || is_open(load - static_cast<std::size_t>(row)));
 }

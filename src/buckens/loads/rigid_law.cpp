@@ -11,11 +11,10 @@ Action RigidLaw::evaluate(double /*t*/, const spatial::MarkerMotion& /*first*/,
 Action RigidLaw::respond(const Sight& sight) const {
   Action out;
   out.row = row(sight);
-  // Only within the step in which it lets go: closed at its start.
-  const bool lets_go =
-      sight.stand.taken_back != 0.0 && sight.states != nullptr && sight.states[0] != 0.0;
-  const bool has_own = out.row.is_closed || lets_go;
-  const double force = has_own ? sight.stand.force : out.row.given;
+  // Within the step in which it lets go: closed at its start.
+  const bool lets_go = sight.states != nullptr && sight.states[0] != 0.0;
+  const double open = lets_go ? out.row.given + sight.stand.taken_back : out.row.given;
+  const double force = out.row.is_closed ? sight.stand.force : open;
   const spatial::PairRow wrench = force * sight.coordinate.J;
   out.on_first = {wrench.segment<3>(0).transpose(), wrench.segment<3>(3).transpose()};
   out.on_second = {wrench.segment<3>(6).transpose(), wrench.segment<3>(9).transpose()};

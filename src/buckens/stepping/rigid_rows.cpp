@@ -82,10 +82,15 @@ bool RigidRows::let_go(const std::vector<loads::RigidRow>& rows) {
   for (std::size_t k = 0; k < stands_.size(); ++k) {
     if (!rows[k].has_gone) continue;
     has_changed = has_changed || stands_[k].regime != 0;
-    stands_[k] = {};
-    released_[k] = 0.0;  // it was along the row of another place
+    let_go(static_cast<int>(k));
   }
   return has_changed;
+}
+
+void RigidRows::let_go(int row) {
+  stands_[static_cast<std::size_t>(row)] = {};
+  // Its force was along the row of another place.
+  released_[static_cast<std::size_t>(row)] = 0.0;
 }
 
 bool RigidRows::put(int row, const loads::RowStand& stand) {

@@ -32,6 +32,8 @@ class RigidRows {
   /// Opens what has nothing to hold on to any more, within the iteration: its force would be that
   /// of a place which has gone. @return whether any was closed
   bool let_go(const std::vector<loads::RigidRow>& rows);
+  /// The same of one row.
+  void let_go(int row);
   /// Moves one row. @return whether its regime changed
   bool put(int row, const loads::RowStand& stand);
   /// Counts a move of rows that were put.
@@ -43,7 +45,7 @@ class RigidRows {
 
  private:
   /// How a row stands open: with a force of its own in a step in which it lets go.
-  loads::RowStand open(std::size_t row) const { return {0, released_[row], released_[row]}; }
+  loads::RowStand open(std::size_t row) const { return {0, 0.0, released_[row]}; }
 
   std::vector<int> first_states_;   // in RowMemory::laws, per rigid row
   std::vector<std::size_t> loads_;  // index into Model::loads, per rigid row

@@ -183,9 +183,7 @@ bool SmallNewton::let_jumping_go(double change) {
     worst = soft_.rigid[k];
   }
   if (worst < 0) return false;
-  std::vector<loads::RigidRow> gone(forces_.rigid.size());
-  gone[static_cast<std::size_t>(worst)].has_gone = true;
-  rigid_.let_go(gone);
+  rigid_.let_go(worst);
   cones_.follow(worst, rigid_);
   return true;
 }
