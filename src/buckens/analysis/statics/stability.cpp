@@ -140,8 +140,7 @@ std::string span_text(const Matrix& directions, const char* one, const char* pla
                       const char* any) {
   constexpr double kSameDirection = 1e-3;
   const linalg::SingularValues svd = linalg::singular_values(directions, linalg::LeftVectors::full);
-  const Vector& size = svd.values;
-  const auto rank = (size.array() > kSameDirection * size[0]).count();
+  const auto rank = svd.rank(kSameDirection);
   if (rank >= 3) return any;
   if (rank == 2) return plane + direction_text(svd.U.col(2));
   return one + direction_text(directions.col(0));
