@@ -354,9 +354,11 @@ void Stepper::filter_algorithmic(model::State& state) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (!flexible_[b] || operators_[b]->is_quasi_static()) continue;
     model::BodyState& s = state.bodies[b];
-    s.d_alg = scheme_.mass * (model_.bodies[b].flexible->fe.M * s.d_ddot);
-    operators_[b]->solve_right_side(s.d_alg, pool_.get());
-    operators_[b]->sieve().apply(s.d_alg);
+    BodyStepOperator& op = *operators_[b];
+    op.inertial().multiply_mass(s.d_ddot, s.d_alg, pool_.get());
+    s.d_alg *= scheme_.mass;
+    op.solve_right_side(s.d_alg, pool_.get());
+    op.sieve().apply(s.d_alg);
   }
 }
 

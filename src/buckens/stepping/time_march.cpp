@@ -98,7 +98,8 @@ StepReport TimeMarch::advance(const model::State& before, model::State& after,
   }
 }
 
-void TimeMarch::restart(const model::State& state) {
+void TimeMarch::restart(model::State& state) {
+  stepper().filter_algorithmic(state);
   if (!error_) return;
   error_->start(state);
   has_restarted_ = true;

@@ -63,9 +63,10 @@ class TimeMarch {
   StepReport advance(const model::State& before, model::State& after,
                      const StepQuestion& holds_event = {});
 
-  /// To be called where `state`, the end of the last step, was given other accelerations: what the
+  /// To be called where accelerations of `state`, the end of the last step, were found anew: the
+  /// method begins with what its steps resolve of them (Stepper::filter_algorithmic), and what the
   /// error estimate knows of the past ends there.
-  void restart(const model::State& state);
+  void restart(model::State& state);
 
   bool is_controlled() const { return error_.has_value(); }
   bool is_done() const { return ticks_ >= end_; }

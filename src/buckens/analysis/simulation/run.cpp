@@ -408,7 +408,6 @@ bool SimulationRun::holds_action(const model::State& from, const model::State& t
 /// Accelerations that have jumped are found anew, and what foretells the motion begins here.
 void SimulationRun::settle(const model::State& before, model::State& state, double rest) {
   settle_after_impact(built_.model, *metric_, march_->stepper().rows_in_use(), before, rest, state);
-  march_->stepper().filter_algorithmic(state);
   state.history = 0;
   march_->restart(state);
 }
