@@ -4,16 +4,17 @@ if(cli_sources)
   add_executable(buckens_program ${cli_sources})
   if(BUCKENS_UNITY)
     # In one piece: the templates of CLI11 are most of it.
-    set(BUCKENS_LIGHT "/apps/cli/")
     buckens_make_pieces(buckens_program "${PROJECT_SOURCE_DIR}/apps" 0)
-    unset(BUCKENS_LIGHT)
   endif()
+  # Without optimisation, which takes half as long: what computes is the library.
+  target_compile_options(buckens_program PRIVATE $<$<CONFIG:Release>:-O0>)
   set_target_properties(buckens_program PROPERTIES OUTPUT_NAME buckens)
   target_include_directories(buckens_program PRIVATE "${PROJECT_SOURCE_DIR}/apps")
   target_link_libraries(
     buckens_program PRIVATE buckens buckens_options CLI11::CLI11 spdlog::spdlog
                             nlohmann_json::nlohmann_json Threads::Threads Cairo::Cairo
                             Httplib::Httplib)
+  buckens_link_library_first(buckens_program buckens)
 endif()
 
 if(BUCKENS_BENCH)

@@ -33,23 +33,6 @@ foreach(source IN LISTS BUCKENS_COMPUTING_TESTS)
   set_source_files_properties("${PROJECT_SOURCE_DIR}/${source}.cpp" PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
 endforeach()
 
-# Puts the library in front of a program's own objects: of templates that both make the linker takes the first, and those
-# of a test are not optimised.
-function(buckens_link_library_first name library)
-  set(archives $<TARGET_FILE:${library}>)
-  string(REGEX REPLACE "^buckens_" "" module ${library})
-  get_property(floor GLOBAL PROPERTY BUCKENS_FLOOR_${module})
-  get_property(modules GLOBAL PROPERTY BUCKENS_MODULES)
-  foreach(other IN LISTS modules)
-    get_property(other_floor GLOBAL PROPERTY BUCKENS_FLOOR_${other})
-    get_target_property(kind buckens_${other} TYPE)
-    if(other_floor LESS floor AND kind STREQUAL STATIC_LIBRARY)
-      list(APPEND archives $<TARGET_FILE:buckens_${other}>)
-    endif()
-  endforeach()
-  target_link_options(${name} PRIVATE LINKER:--whole-archive ${archives} LINKER:--no-whole-archive)
-endfunction()
-
 # buckens_test(name label library source...)
 function(buckens_test name label library)
   add_executable(${name} ${ARGN} $<TARGET_OBJECTS:buckens_source_directory>)
