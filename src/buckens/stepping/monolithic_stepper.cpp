@@ -8,104 +8,20 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/body/rigid_modes.h"
 #include "buckens/dynamics/coupling_terms.h"
 #include "buckens/dynamics/drives.h"
 #include "buckens/dynamics/frame_equation.h"
 #include "buckens/dynamics/row_memory.h"
-#include "buckens/linalg/pivoted_qr.h"
-#include "buckens/spatial/rotation.h"
 #include "buckens/stepping/change_of_step.h"
+#include "buckens/stepping/monolithic_part.h"
 
 namespace buckens::stepping {
 
-using Eigen::MatrixXd;
 using Eigen::Vector3d;
-using linalg::Matrix;
 using linalg::SparseMatrix;
 using linalg::Triplet;
 using linalg::Vector;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
-/// Unknowns of one body: u and Δ carry velocity, κ and η are corrections. Columns −1 are absent.
-struct MonolithicStepper::Part {
-  explicit Part(const body::Body& b) : body(b) {
-    const auto rotations = b.rotation_basis.cols();
-    const auto translations = b.translation_basis.cols();
-    basis = MatrixXd::Zero(6, rotations + translations);
-    basis.topLeftCorner(3, rotations) = b.rotation_basis;
-    basis.bottomRightCorner(3, translations) = b.translation_basis;
-    if (b.is_flexible()) P = independent_multipliers(b);
-  }
-
-  /// P = MΦ with unit columns; columns without mass or dependent on others are left out.
-  static Matrix independent_multipliers(const body::Body& b) {
-    std::vector<Vector3d> positions;
-    for (const auto& node : b.flexible->fe.nodes) positions.push_back(node.position);
-    const Matrix Phi = body::rigid_modes(positions, b.flexible->fe.dofs, b.com);
-    Matrix P = b.flexible->fe.M * Phi;
-    const double largest = P.colwise().norm().maxCoeff();
-    for (Eigen::Index k = 0; k < P.cols(); ++k) {
-      const double norm = P.col(k).norm();
-      P.col(k) *= norm > 1e-12 * largest ? 1.0 / norm : 0.0;
-    }
-    const linalg::PivotedQr qr(P, 1e-9);
-    Matrix out(P.rows(), qr.rank());
-    for (Eigen::Index k = 0; k < qr.rank(); ++k) {
-      out.col(k) = P.col(qr.order()[static_cast<std::size_t>(k)]);
-    }
-    return out;
-  }
-
-  const body::Body& body;
-  MatrixXd basis;  // 6×(frame coordinates in use)
-  Matrix P;        // n×(rigid motions that carry mass)
-  int frame = 0, frame_correction = 0;
-  int nodal = 0, nodal_multiplier = 0, nodal_correction = 0, correction_multiplier = 0;
-
-  const model::BodyState* before = nullptr;
-  History<Vector6> frame_history;
-  History<Vector> nodal_history;
-  Vector6 u, kappa;
-  Vector delta, eta;
-  Matrix6 W;                      // of the correction: at the predicted motion
-  model::Coupling coupling;       // as evaluated last
-  body::DeformedMoments moments;  // all of them
-
-  bool is_flexible() const { return body.is_flexible(); }
-  void set_moments(const Vector& d, const Vector& d_dot) {
-    const auto& patterns = body.flexible->invariants.centrifugal_patterns();
-    moments = dynamics::frame_moments(body, before->terms, coupling.moments,
-                                      patterns.transpose() * d, patterns.transpose() * d_dot);
-  }
-  Matrix6 metric(const Scheme& scheme, const Vector3d& w) const {
-    Matrix6 out = Matrix6::Zero();
-    out.topLeftCorner<3, 3>() =
-        scheme.mass * moments.J + scheme.damping * dynamics::gyroscopic_tangent(moments, w);
-    out.bottomRightCorner<3, 3>() = scheme.mass * body.mass * Eigen::Matrix3d::Identity();
-    return out;
-  }
-  dynamics::BodyMotion motion(double weight, bool corrected, bool shifted, double rate_factor,
-                              const Vector6& frame_rate, const Vector* nodal_rate) const {
-    dynamics::BodyMotion out;
-    Vector6 way = weight * u;
-    if (shifted) way += frame_history.offset;
-    if (corrected) way += kappa;
-    out.frame.X_WB.p = before->frame.X_WB.p + way.tail<3>();
-    out.frame.X_WB.q = (before->frame.X_WB.q * spatial::exp_rotation(way.head<3>())).normalized();
-    const Vector6 rate = rate_factor * u + frame_rate;
-    out.frame.w = rate.head<3>();
-    out.frame.v = rate.tail<3>();
-    if (!is_flexible()) return out;
-    Vector d = before->d + weight * delta;
-    if (shifted) d += nodal_history.offset;
-    if (corrected) d += eta;
-    out.y = body.flexible->rows * d;
-    out.y_dot = body.flexible->rows * (rate_factor * delta + *nodal_rate);
-    return out;
-  }
-};
 
 MonolithicStepper::MonolithicStepper(const model::Model& model, const StepSettings& settings,
                                      std::vector<int> rows_in_use)
@@ -238,158 +154,6 @@ void MonolithicStepper::update_coupling(Part& part) {
       scheme_.acceleration_rate * part.delta + part.nodal_history.acceleration, w.head<3>(),
       w_dot.head<3>());
   part.set_moments(d, d_dot);
-}
-
-std::vector<MonolithicStepper::Entry> MonolithicStepper::entries(
-    const dynamics::SystemRow& row) const {
-  std::vector<Entry> out;
-  for (const dynamics::BodyRow* share : row.parts()) {
-    if (share->body == model::kGround) continue;
-    const Part& part = *parts_[static_cast<std::size_t>(share->body)];
-    const Eigen::RowVectorXd frame = share->frame * part.basis;
-    for (int k = 0; k < static_cast<int>(frame.size()); ++k) {
-      out.push_back({part.frame + k, part.frame_correction + k, frame[k]});
-    }
-    for (int k = 0; k < 6; ++k) {
-      const int first = k < 3 ? share->translation_row : share->rotation_row;
-      if (first < 0) continue;
-      const auto& N = part.body.flexible->rows;
-      using RowMajor = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-      for (RowMajor::InnerIterator it(N, first + k % 3); it; ++it) {
-        const int dof = static_cast<int>(it.col());
-        out.push_back(
-            {part.nodal + dof, part.nodal_correction + dof, share->interface[k] * it.value()});
-      }
-    }
-  }
-  return out;
-}
-
-namespace {
-
-void add_block(std::vector<Triplet>& out, int row, int column, double factor,
-               const SparseMatrix& A) {
-  for (int k = 0; k < A.outerSize(); ++k) {
-    for (SparseMatrix::InnerIterator it(A, k); it; ++it) {
-      out.emplace_back(row + static_cast<int>(it.row()), column + static_cast<int>(it.col()),
-                       factor * it.value());
-    }
-  }
-}
-
-void add_dense(std::vector<Triplet>& out, int row, int column, const MatrixXd& A) {
-  for (int j = 0; j < static_cast<int>(A.cols()); ++j) {
-    for (int i = 0; i < static_cast<int>(A.rows()); ++i) {
-      out.emplace_back(row + i, column + j, A(i, j));
-    }
-  }
-}
-
-}  // namespace
-
-void MonolithicStepper::fixed_body(const Part& part) {
-  add_dense(fixed_, part.frame_correction, part.frame_correction,
-            part.basis.transpose() * part.W * part.basis);
-  if (!part.is_flexible()) return;
-  const body::FlexiblePart& mesh = *part.body.flexible;
-  for (const auto& [row, multiplier] :
-       {std::pair(part.nodal, part.nodal_multiplier),
-        std::pair(part.nodal_correction, part.correction_multiplier)}) {
-    add_block(fixed_, row, row, scheme_.mass, mesh.fe.M);
-    add_block(fixed_, row, row, scheme_.stiffness, mesh.fe.K);
-    if (mesh.is_damped()) add_block(fixed_, row, row, scheme_.damping, mesh.C);
-    add_dense(fixed_, row, multiplier, -part.P);
-    add_dense(fixed_, multiplier, row, part.P.transpose());
-  }
-  // Only where the equations hold at the corrected position does its strain count.
-  if (scheme_.weight == 1.0) {
-    add_block(fixed_, part.nodal, part.nodal_correction, scheme_.stiffness, mesh.fe.K);
-  }
-}
-
-void MonolithicStepper::add_product(const std::vector<Entry>& row, const std::vector<Entry>& column,
-                                    double factor, bool row_corrects, bool column_corrects) {
-  for (const Entry& i : row) {
-    for (const Entry& j : column) {
-      fixed_.emplace_back(row_corrects ? i.correction_column : i.column,
-                          column_corrects ? j.correction_column : j.column,
-                          factor * i.value * j.value);
-    }
-  }
-}
-
-void MonolithicStepper::fixed_corrections() {
-  for (std::size_t k = 0; k < rows_in_use_.size(); ++k) {
-    const int column = first_correction_ + static_cast<int>(k);
-    if (!corrects_positions()) {
-      fixed_.emplace_back(column, column, 1.0);
-      continue;
-    }
-    const auto row = static_cast<std::size_t>(rows_in_use_[k]);
-    for (const Entry& e : entries(predicted_rows_[row])) {
-      fixed_.emplace_back(e.correction_column, column, -e.value);
-      // A correction of positions rolls as well.
-      if (rates_only_[row]) fixed_.emplace_back(column, e.correction_column, e.value);
-    }
-  }
-  for (std::size_t k = 0; k < correcting_.rows.size(); ++k) {
-    const double k_eff = scheme_.force * (scheme_.weight * correcting_.stiffness[k] +
-                                          scheme_.mean_rate * correcting_.damping[k]);
-    const std::vector<Entry> row = entries(correcting_.rows[k]);
-    add_product(row, row, k_eff, true, true);
-  }
-}
-
-void MonolithicStepper::follow_regimes() {
-  if (correcting_.regimes == soft_.regimes) return;
-  correcting_.regimes = soft_.regimes;
-  correcting_.is_closed = soft_.is_closed;
-  fixed_part();
-}
-
-void MonolithicStepper::fixed_part() {
-  fixed_.clear();
-  for (const auto& part : parts_) fixed_body(*part);
-  fixed_corrections();
-  fixed_rigid_corrections();
-  fixed_matrix_.resize(size_, size_);
-  fixed_matrix_.setFromTriplets(fixed_.begin(), fixed_.end());
-}
-
-void MonolithicStepper::tangent(std::vector<Triplet>& out) const {
-  for (std::size_t b = 0; b < parts_.size(); ++b) {
-    const Part& part = *parts_[b];
-    const Matrix6 W = part.metric(scheme_, motions_evaluation_[b].frame.w);
-    add_dense(out, part.frame, part.frame, part.basis.transpose() * W * part.basis);
-  }
-  for (std::size_t k = 0; k < rows_in_use_.size(); ++k) {
-    const auto row = static_cast<std::size_t>(rows_in_use_[k]);
-    const int velocity = first_lambda_ + static_cast<int>(k);
-    const int position = first_correction_ + static_cast<int>(k);
-    for (const Entry& e : entries(evaluation_.rows[row])) {
-      out.emplace_back(e.column, velocity, -e.value);
-    }
-    for (const Entry& e : entries(end_.rows[row])) {
-      out.emplace_back(velocity, e.column, e.value);
-      if (!corrects_positions() || rates_only_[row]) continue;
-      out.emplace_back(position, e.column, e.value);
-      out.emplace_back(position, e.correction_column, e.value);
-    }
-  }
-  std::vector<std::vector<Entry>> soft;
-  for (const dynamics::SystemRow& row : soft_.rows) soft.push_back(entries(row));
-  dynamics::for_shares(soft_, [&](int on, int by, double share) {
-    const auto k = static_cast<std::size_t>(by);
-    const double elastic = share * scheme_.force * scheme_.weight * soft_.stiffness[k];
-    const double both = elastic + share * scheme_.force * scheme_.mean_rate * soft_.damping[k];
-    for (const Entry& i : soft[static_cast<std::size_t>(on)]) {
-      for (const Entry& j : soft[k]) {
-        out.emplace_back(i.column, j.column, both * i.value * j.value);
-        if (scheme_.weight != 1.0) continue;
-        out.emplace_back(i.column, j.correction_column, elastic * i.value * j.value);
-      }
-    }
-  });
 }
 
 void MonolithicStepper::body_residual(std::size_t b, Vector& r) const {

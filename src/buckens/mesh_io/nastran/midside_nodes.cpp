@@ -20,7 +20,6 @@ constexpr double kInTheMiddle = 1e-5;
 }  // namespace
 
 std::span<const NastranEdge> nastran_edges(NastranElementKind kind) {
-  using Kind = NastranElementKind;
   static constexpr std::array<NastranEdge, 6> kTetra = {
       {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
   static constexpr std::array<NastranEdge, 8> kPyramid = {
@@ -40,17 +39,17 @@ std::span<const NastranEdge> nastran_edges(NastranElementKind kind) {
                                                          {6, 7},
                                                          {7, 4}}};
   switch (kind) {
-    case Kind::tetra:
+    case NastranElementKind::tetra:
       return kTetra;
-    case Kind::pyramid:
+    case NastranElementKind::pyramid:
       return kPyramid;
-    case Kind::penta:
+    case NastranElementKind::penta:
       return kPenta;
-    case Kind::hexa:
+    case NastranElementKind::hexa:
       return kHexa;
-    case Kind::tria6:
+    case NastranElementKind::tria6:
       return std::span(kTetra).first(3);
-    case Kind::quad8:
+    case NastranElementKind::quad8:
       return std::span(kHexa).first(4);
     default:
       return {};
