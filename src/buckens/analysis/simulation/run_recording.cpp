@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "buckens/analysis/simulation/seconds_since.h"
 #include "buckens/dynamics/energy.h"
 
 namespace buckens::analysis {
@@ -11,10 +12,6 @@ namespace buckens::analysis {
 namespace {
 
 constexpr double kSecondsBetweenExtremes = 1;
-
-double wall_seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 }  // namespace
 
@@ -100,7 +97,7 @@ void RunRecording::write_record(const model::State& state,
   sink_.write(record);
   write_fields(state);
   last_written_ = state.t;
-  seconds_ += wall_seconds_since(start);
+  seconds_ += seconds_since(start);
 }
 
 /// @pre the record of this instant is written
@@ -115,7 +112,7 @@ void RunRecording::write_fields(const model::State& state) {
   } else if (fields_.has_extremes()) {
     fields_.watch(state);
   }
-  if (wall_seconds_since(extremes_written_) > kSecondsBetweenExtremes) write_extremes();
+  if (seconds_since(extremes_written_) > kSecondsBetweenExtremes) write_extremes();
   is_first_ = false;
 }
 

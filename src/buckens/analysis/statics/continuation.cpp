@@ -2,7 +2,6 @@
 #include "buckens/analysis/statics/continuation.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,41 +13,8 @@
 
 namespace buckens::analysis {
 
-using linalg::SparseMatrix;
 using linalg::Vector;
 using Share = StaticSystem::Share;
-
-namespace {
-
-constexpr int kMaxIterations = 15;
-// Farther from the prediction than this [rad, or of the model's length] it is another equilibrium.
-constexpr double kFarFromPrediction = 0.5;
-// A row that changes within so many full steps may be what ends them.
-constexpr double kNearCorner = 0.1;
-
-/// [A b; nᵀ c]
-SparseMatrix bordered(const SparseMatrix& A, const Vector& column, const Vector& row,
-                      double corner) {
-  const Eigen::Index n = A.rows();
-  std::vector<linalg::Triplet> entries;
-  entries.reserve(static_cast<std::size_t>(A.nonZeros() + 2 * n + 1));
-  for (Eigen::Index k = 0; k < A.outerSize(); ++k) {
-    for (SparseMatrix::InnerIterator it(A, k); it; ++it) {
-      entries.emplace_back(it.row(), it.col(), it.value());
-    }
-  }
-  for (Eigen::Index k = 0; k < n; ++k) {
-    entries.emplace_back(k, n, column[k]);
-    entries.emplace_back(n, k, row[k]);
-  }
-  entries.emplace_back(n, n, corner);
-  SparseMatrix out(n + 1, n + 1);
-  out.setFromTriplets(entries.begin(), entries.end());
-  out.makeCompressed();
-  return out;
-}
-
-}  // namespace
 
 StaticContinuation::StaticContinuation(const model::Model& model,
                                        const dynamics::MassMetric& metric, RestRows& rest,
@@ -168,209 +134,10 @@ StaticContinuation::Plane StaticContinuation::plane(const PathPoint& at) const {
   return out;
 }
 
-Vector StaticContinuation::load_derivative(const StaticPoint& point) const {
-  StaticPoint loaded = point;
-  loaded.load_factor = 1.0;
-  StaticPoint unloaded = point;
-  unloaded.load_factor = 0.0;
-  // Loads enter linearly: the difference is the derivative.
-  return system_->residual(loaded, system_->balance(loaded)) -
-         system_->residual(unloaded, system_->balance(unloaded));
-}
-
-bool StaticContinuation::factorise(const StaticPoint& point, const Vector& load_derivative,
-                                   const Plane& plane, double give) {
-  // Rows of μ are scaled so that a full step is one.
-  const SparseMatrix tangent =
-      bordered(system_->tangent(0.0, point.rest, give), scale_.load_factor * load_derivative,
-               plane.x, scale_.load_factor * plane.load_factor);
-  const bool is_same_pattern = lu_ && model_.contact_groups.empty();  // see StaticDescent
-  if (is_same_pattern && lu_->factorise(tangent)) return true;
-  lu_.emplace(tangent);  // again: pivots of another configuration may be bad here
-  return lu_->factorise(tangent);
-}
-
-bool StaticContinuation::solve_step(StaticPoint& point, const StaticBalance& balance,
-                                    const Plane& plane, Vector& step, double give) {
-  system_->linearise(point, balance);
-  const Vector loaded = load_derivative(point);
-  rest_.follow_contacts(balance.rest, point.rest);
-  RestPivots pivots(*system_);
-  step.resize(system_->size() + 1);
-  for (;;) {
-    step << -system_->residual(point, balance), 0.0;
-    if (!factorise(point, loaded, plane, give)) return false;
-    lu_->solve_in_place(step);
-    if (!step.allFinite()) return false;
-    switch (pivots.revise(balance, step.head(system_->size()), point)) {
-      case RestPivots::Outcome::settled:
-        return true;
-      case RestPivots::Outcome::moved:
-        break;
-      case RestPivots::Outcome::lost:
-        resisting_ = pivots.lost_text();
-        return false;
-    }
-  }
-}
-
 StaticPoint StaticContinuation::moved(const StaticPoint& point, const Vector& step) const {
   StaticPoint out = system_->moved(point, step.head(system_->size()));
   out.load_factor += scale_.load_factor * step[system_->size()];
   return out;
-}
-
-std::optional<PathPoint> StaticContinuation::correct(StaticPoint point, const Plane& across,
-                                                     double longest) {
-  Plane plane = across;
-  double way = 0.0;
-  bool has_shared = rest_.size() < 2;
-  for (int iteration = 0;; ++iteration) {
-    PathPoint out;
-    out.balance = system_->balance(point);
-    const Vector residual = system_->residual(point, out.balance);
-    if (!residual.allFinite()) return std::nullopt;
-    const bool is_end = is_balanced(point, out.balance, residual);
-    if (is_end && has_shared) {
-      out.point = std::move(point);
-      out.iterations = iteration;
-      polish_and_lead_on(out, plane);
-      return out;
-    }
-    if (is_end) {  // rows that share a load share it evenly
-      has_shared = true;
-      rest_.share(out.balance.rest, point.rest);
-      out.balance = system_->balance(point);
-    }
-    remember_resistance(point, residual);
-    const int n = system_->size();
-    Vector step;
-    const double give = is_end ? StaticSystem::kGiveOfSharing : StaticSystem::kGive;
-    if (iteration == kMaxIterations || !solve_step(point, out.balance, plane, step, give)) {
-      return std::nullopt;
-    }
-    if (is_end) {  // in place
-      point = system_->moved(point, system_->forces_of(step.head(n)));
-      --iteration;
-      continue;
-    }
-    if (way + motion(step.head(n)) > longest) return std::nullopt;
-    StaticPoint next = moved(point, step);
-    if (follow_pairs(point, next, true)) {  // again, with the rows of those that it would meet
-      fit(point);
-      plane.x.conservativeResizeLike(Vector::Zero(system_->size()));  // no part of multipliers
-      continue;
-    }
-    way += motion(step.head(n));
-    point = std::move(next);
-  }
-}
-
-void StaticContinuation::polish_and_lead_on(PathPoint& at, const Plane& plane) {
-  const int n = system_->size();
-  const Vector residual = system_->residual(at.point, at.balance);
-  StaticPoint better = at.point;
-  Vector step;
-  if (!solve_step(better, at.balance, plane, step)) return;
-  if (motion(step.head(n)) < kFarFromPrediction) {
-    // One more Newton step reaches rounding; if already there, it is not taken.
-    better = moved(better, step);
-    StaticBalance balance = system_->balance(better);
-    if (misfit(system_->residual(better, balance)) < misfit(residual)) {
-      at.point = better;
-      at.balance = std::move(balance);
-    }
-  }
-  lead_on(at);
-}
-
-/// Direction of the path by the last factor.
-bool StaticContinuation::lead_on(PathPoint& at) {
-  const int n = system_->size();
-  Vector direction = Vector::Unit(n + 1, n);
-  lu_->solve_in_place(direction);
-  if (!direction.allFinite()) return false;
-  const double turn = scale_.load_control ? 0.0 : motion(direction.head(n)) / scale_.motion;
-  const double size = std::hypot(turn, direction[n]);
-  if (!(size > 0.0) || !std::isfinite(size)) return false;
-  at.direction = direction.head(n) / size;
-  at.load_rate = scale_.load_factor * direction[n] / size;
-  return true;
-}
-
-StaticContinuation::Corner StaticContinuation::nearest_corner(const PathPoint& at) {
-  system_->linearise(at.point, at.balance);
-  Corner out;
-  for (std::size_t k = 0; k < rest_.size(); ++k) {
-    if (rest_[k].kind != RestRow::Kind::one_sided) continue;
-    const CornerValue now = corner_value(k, at.point, at.balance);
-    const double rate = now.slope.dot(at.direction);
-    const double ahead = rate < 0.0 ? now.value / -rate : HUGE_VAL;
-    if (ahead < out.ahead) out = {k, ahead};
-  }
-  return out;
-}
-
-StaticContinuation::CornerValue StaticContinuation::corner_value(
-    std::size_t row, const StaticPoint& point, const StaticBalance& balance) const {
-  const loads::RowStand& stand = point.rest[row];
-  if (stand.regime != 0) {
-    const double sign = rest_.push(row, {stand.regime, 1.0});
-    return {sign * system_->scaled_force(row, stand.force), sign * system_->force_slope(row)};
-  }
-  const loads::RigidLaw::Contact& contact = balance.rest.contacts[row];
-  return {system_->scaled_gap(row, contact.gap), contact.sign * system_->gap_slope(row)};
-}
-
-std::optional<PathPoint> StaticContinuation::around_corner(const PathPoint& found) {
-  if (scale_.load_control || found.direction.size() == 0) return std::nullopt;
-  const PathPoint at = fitted(found);
-  const Corner corner = nearest_corner(at);
-  if (corner.ahead > kNearCorner) return std::nullopt;
-  const int n = system_->size();
-  PathPoint out = at;
-  for (int iteration = 0;; ++iteration) {
-    out.balance = system_->balance(out.point);
-    system_->linearise(out.point, out.balance);
-    const Vector residual = system_->residual(out.point, out.balance);
-    const CornerValue here = corner_value(corner.row, out.point, out.balance);
-    const bool is_there = std::abs(here.value) <= closed_share(model_, out.point);
-    if (is_there && is_balanced(out.point, out.balance, residual)) break;
-    if (iteration == kMaxIterations ||
-        !factorise(out.point, load_derivative(out.point), {here.slope, 0.0}, StaticSystem::kGive)) {
-      return std::nullopt;
-    }
-    Vector step(n + 1);
-    step << -residual, -here.value;
-    lu_->solve_in_place(step);
-    if (!step.allFinite() || motion(step.head(n)) > scale_.motion) return std::nullopt;
-    out.point = moved(out.point, step);
-  }
-  // Beyond, the row does what it did not, and ever more of it.
-  loads::RowStand& stand = out.point.rest[corner.row];
-  stand = {stand.regime != 0 ? 0 : out.balance.rest.contacts[corner.row].regime, 0.0};
-  rest_.follow_contacts(out.balance.rest, out.point.rest);
-  out.balance = system_->balance(out.point);
-  const CornerValue beyond = corner_value(corner.row, out.point, out.balance);
-  if (!factorise(out.point, load_derivative(out.point), {beyond.slope, 0.0}, StaticSystem::kGive) ||
-      !lead_on(out)) {
-    return std::nullopt;
-  }
-  out.position = at.position + std::max(corner.ahead, 0.0);
-  return out;
-}
-
-void StaticContinuation::remember_resistance(const StaticPoint& point, const Vector& residual) {
-  Eigen::Index worst = 0;
-  residual.cwiseAbs().maxCoeff(&worst);
-  const int index = static_cast<int>(worst);
-  if (system_->share(index) == Share::frame) {
-    resisting_ = describe_motion(model_, *system_, point, Vector::Unit(residual.size(), worst));
-  } else if (system_->share(index) == Share::joint) {
-    resisting_ = fmt::format("{} opens", system_->owner_at(index));
-  } else {
-    resisting_ = fmt::format("body \"{}\" deforms", model_.bodies[system_->body_at(index)].name);
-  }
 }
 
 PathPoint StaticContinuation::begin(const StaticPoint& start, double sign) {

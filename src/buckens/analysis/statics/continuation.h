@@ -89,6 +89,11 @@ class StaticContinuation {
   double position_residual(const PathPoint& at) const;
 
  private:
+  static constexpr int kMaxIterations = 15;
+  /// Farther from the prediction than this [rad, or of the model's length] it is another
+  /// equilibrium.
+  static constexpr double kFarFromPrediction = 0.5;
+
   /// Plane in which Newton moves, and the direction across it along the path.
   struct Plane {
     linalg::Vector x;

@@ -24,11 +24,9 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 namespace {
 
 constexpr int kMaxDescentIterations = 400;
-constexpr double kLongestStep = 0.3;      // rad, or of the model's length
 constexpr double kLongStep = 0.2;         // leaves the path of damped motion: more inertia
 constexpr double kShortStep = 0.1;        // follows it well: less inertia
 constexpr double kFarFromBalance = 1e-2;  // of the largest force: only there steps must go downhill
-constexpr double kLeastInertia = 1e-9;  // of relevant σ: keeps directions without stiffness at rest
 // Where faces end, as below a ball on the edge of a box, long steps may lead to and fro for ever.
 // After so many without gain they are as short as of strongly damped motion, which does not.
 constexpr int kLongWithoutGain = 30;
@@ -38,8 +36,6 @@ constexpr double kAway = 0.5;   // of the sum of all steps
 // A force that moves no point by this fraction of the model's length is rounding: an unloaded path
 // starts with multipliers of that size.
 constexpr double kMovesNothing = 1e-18;
-constexpr double kFarTurned = 40.0;  // rad
-constexpr double kFarMoved = 20.0;   // model lengths
 
 }  // namespace
 
@@ -318,85 +314,6 @@ bool StaticDescent::goes_to_and_fro(double residual, double size) {
     away = std::max({away, turned, (point_.poses[b].p - best_[b].p).norm() / model_.length});
   }
   return away < kAway * way_without_gain_;
-}
-
-void StaticDescent::polish() {
-  sigma_ = kLeastInertia * reference_;
-  for (int round = 0; round < 3; ++round) {
-    const StaticPoint best = point_;
-    const double before = misfit();
-    system_->linearise(point_, balance_);
-    Vector step;
-    if (before == 0.0 || !solve_step(step)) return;
-    // A step that is no longer small shows that the direction has no stiffness.
-    if (motion_size(step) > kLongestStep) return;
-    point_ = system_->moved(point_, step);
-    evaluate();
-    if (misfit() < 0.5 * before) continue;
-    if (misfit() > before) {
-      point_ = best;
-      evaluate();
-    }
-    return;
-  }
-}
-
-void StaticDescent::check_dependent_rows() {
-  if (system_->rows_in_use().size() == static_cast<std::size_t>(model_.num_constraint_rows())) {
-    return;
-  }
-  const Vector& g = balance_.constraints.g;
-  Eigen::Index worst = 0;
-  if (g.cwiseAbs().maxCoeff(&worst) <= kDependentGap * model_.length) return;
-  if (row_choices_ < 4) {
-    choose_rows();
-    if (!is_balanced()) return;
-  }
-  const auto [joint, row] = model_.owner_of_row(static_cast<int>(worst));
-  throw ModelError(fmt::format(
-      "joint \"{}\" ({} between {} and {}) cannot be closed: {:.3g} {} are left in equilibrium, "
-      "and no deformation would close them; correct the placement or remove a joint",
-      joint->name, joints::to_string(joint->type), joint->first.text, joint->second.text,
-      std::abs(g[worst]), joint->rows[static_cast<std::size_t>(row)].is_length() ? "m" : "rad"));
-}
-
-void StaticDescent::check_travel() const {
-  for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
-    const std::string& name = model_.bodies[b].name;
-    const Eigen::Vector3d moved = point_.poses[b].p - start_.poses[b].p;
-    if (!(moved.norm() <= kFarMoved * model_.length)) {
-      refuse(fmt::format("body \"{}\" moves along {}", name, direction_text(moved)));
-    }
-    if (turned_[b].norm() > kFarTurned) {
-      const Eigen::Vector3d axis = point_.poses[b].q * turned_[b];
-      refuse(fmt::format("body \"{}\" turns about {}", name, direction_text(axis)));
-    }
-  }
-}
-
-void StaticDescent::refuse(const std::string& motion) const {
-  throw ModelError(fmt::format(
-      "no static equilibrium: under its loads {} and nothing holds it ({:.3g} N stay unbalanced); "
-      "add a joint or a spring that carries this load, remove the load, {}or start `as-given`",
-      motion, force_residual(),
-      rest_.leaves_friction() ? "hold what rubs by `friction: frozen`, " : ""));
-}
-
-/// Rows that touch without a force hold nothing back.
-RestStands StaticDescent::loaded_rows() const {
-  RestStands out = point_.rest;
-  rest_.open_unloaded(force_tolerance(), out);
-  return out;
-}
-
-std::optional<StaticModes> StaticDescent::modes() {
-  system_->linearise(point_, balance_);
-  return static_modes(*system_, reference_, loaded_rows());
-}
-
-std::optional<StaticModes> StaticDescent::softest() {
-  system_->linearise(point_, balance_);
-  return softest_mode(*system_, reference_, loaded_rows());
 }
 
 void StaticDescent::push(const Vector& shape, double amount, double stiffness) {

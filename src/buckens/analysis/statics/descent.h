@@ -49,6 +49,10 @@ class StaticDescent {
   double reference() const { return reference_; }
 
  private:
+  static constexpr double kLongestStep = 0.3;  ///< rad, or of the model's length
+  /// Of the relevant σ: keeps directions without stiffness at rest.
+  static constexpr double kLeastInertia = 1e-9;
+
   void choose_rows();
   void set_scales();
   void evaluate();

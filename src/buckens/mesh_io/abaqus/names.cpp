@@ -34,8 +34,7 @@ std::pair<const AbaqusElements*, std::size_t> AbaqusPlaced::at(int element) cons
   return {&scope->elements[block], static_cast<std::size_t>(element - first_of_block[block])};
 }
 
-AbaqusNames::AbaqusNames(const AbaqusDeck& deck, const AbaqusLines& lines)
-    : deck_(deck), lines_(lines) {
+AbaqusNames::AbaqusNames(const AbaqusDeck& deck, const AbaqusLines& lines) : lines_(lines) {
   place_scope(deck.root, nullptr);
   for (const AbaqusInstance& instance : deck.instances) place_scope(instance.scope, &instance);
 }

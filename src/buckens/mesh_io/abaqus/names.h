@@ -136,7 +136,6 @@ class AbaqusNames {
   AbaqusFace shell_edge(const AbaqusElementAt& at, std::size_t edge) const;
   bool is_free(const AbaqusElementAt& at, const AbaqusFace& face);
 
-  const AbaqusDeck& deck_;
   const AbaqusLines& lines_;
   std::vector<AbaqusPlaced> scopes_;
   std::vector<Eigen::Vector3d> positions_;

@@ -15,9 +15,6 @@
 
 namespace buckens::mesh_io {
 
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
-
 namespace {
 
 AbaqusSection& add_section(AbaqusReading& in, const DeckKeyword& keyword, fem::PropertyKind kind) {
@@ -367,51 +364,4 @@ void read_beam_general_section(AbaqusReading& in, const DeckKeyword& keyword) {
   section.material = material.name;
   in.deck.materials[upper(material.name)] = material;
 }
-
-void read_mass(AbaqusReading& in, const DeckKeyword& keyword) {
-  const std::string type = upper(in.optional_parameter(keyword, "TYPE"));
-  if (!type.empty() && type != "ISOTROPIC") {
-    in.lines.fail(
-        keyword.place,
-        fmt::format("a *MASS of TYPE={} acts differently in its directions, which no body "
-                    "in space does; give one mass",
-                    type));
-  }
-  AbaqusMass& mass = in.scope->masses.emplace_back();
-  mass.element_set = in.parameter(keyword, "ELSET");
-  mass.place = keyword.place;
-  DeckRow row;
-  if (!in.lines.next_row(row)) in.lines.fail(keyword.place, "the mass is missing on the next line");
-  mass.mass = in.lines.number(row, 0, "mass");
-  if (mass.mass < 0.0)
-    in.lines.fail(row.place, fmt::format("the mass {:g} is negative", mass.mass));
-}
-
-void read_rotary_inertia(AbaqusReading& in, const DeckKeyword& keyword) {
-  AbaqusMass& mass = in.scope->masses.emplace_back();
-  mass.element_set = in.parameter(keyword, "ELSET");
-  mass.is_rotary = true;
-  mass.orientation = in.optional_parameter(keyword, "ORIENTATION");
-  mass.place = keyword.place;
-  DeckRow row;
-  if (!in.lines.next_row(row)) {
-    in.lines.fail(keyword.place, "the moments of inertia are missing on the next line");
-  }
-  // The products stand as they do in the tensor, I12 = −∫ρ x1 x2 dV.
-  Matrix3d& I = mass.inertia;
-  for (int k = 0; k < 3; ++k) {
-    I(k, k) = in.lines.number(row, static_cast<std::size_t>(k), "moment of inertia");
-  }
-  I(0, 1) = I(1, 0) = in.lines.number_or(row, 3, 0.0, "product of inertia");
-  I(0, 2) = I(2, 0) = in.lines.number_or(row, 4, 0.0, "product of inertia");
-  I(1, 2) = I(2, 1) = in.lines.number_or(row, 5, 0.0, "product of inertia");
-  const Vector3d principal =
-      Eigen::SelfAdjointEigenSolver<Matrix3d>(I, Eigen::EigenvaluesOnly).eigenvalues();
-  // Numbers of seven digits.
-  if (principal[0] >= -1e-6 * principal.cwiseAbs().maxCoeff()) return;
-  in.lines.fail(row.place, fmt::format("a principal moment of inertia, {:g}, is negative; products "
-                                       "of inertia are I12, I13, I23 in this order",
-                                       principal[0]));
-}
-
 }  // namespace buckens::mesh_io

@@ -30,9 +30,8 @@ struct Member {
 
 class RigidBuilder {
  public:
-  RigidBuilder(const NastranBulk& bulk, const NastranCoordinates& coordinates, NastranNotes& notes,
-               fem::ImportedMesh& mesh)
-      : bulk_(bulk), coordinates_(coordinates), notes_(notes), mesh_(mesh) {}
+  RigidBuilder(const NastranCoordinates& coordinates, NastranNotes& notes, fem::ImportedMesh& mesh)
+      : coordinates_(coordinates), notes_(notes), mesh_(mesh) {}
 
   void add_rbe2(const NastranCard& card);
   void add_rbe1(const NastranCard& card);
@@ -55,7 +54,6 @@ class RigidBuilder {
   bool tie_in_own_axes(const NastranCard& card, int reference, int follower,
                        const Variables& variables);
 
-  const NastranBulk& bulk_;
   const NastranCoordinates& coordinates_;
   NastranNotes& notes_;
   fem::ImportedMesh& mesh_;
@@ -331,7 +329,7 @@ void check_nastran_axes(const NastranCard& card, const NastranVariables& variabl
 
 void add_nastran_rigid_elements(const NastranBulk& bulk, const NastranCoordinates& coordinates,
                                 NastranNotes& notes, fem::ImportedMesh& mesh) {
-  RigidBuilder builder(bulk, coordinates, notes, mesh);
+  RigidBuilder builder(coordinates, notes, mesh);
   for (const NastranCard& card : bulk.cards_named("RBE2")) builder.add_rbe2(card);
   for (const NastranCard& card : bulk.cards_named("RBAR")) builder.add_rigid(card, 2);
   for (const NastranCard& card : bulk.cards_named("RTRPLT")) builder.add_rigid(card, 3);
