@@ -52,12 +52,12 @@ ExitCode check(const CheckArguments& arguments, bool json) {
 constexpr char kCheckFooter[] = R"(
 Example:
   buckens check slider_crank.yaml
-  buckens check slider_crank.yaml --view     also writes slider_crank.html, which shows it
+  buckens check slider_crank.yaml --view     also writes slider_crank.html
 
-Reads and builds the model, closes its joints, and tells what can be said without running: mass,
-mass centre, principal inertia and lowest free-free frequencies of each body, the names of markers,
-joints and their equations, which of them are redundant, degrees of freedom, advice on the step
-size. Without --view it writes no files.
+Reads and builds the model, closes its joints, and reports what is known without running: mass, mass
+centre, principal inertia and lowest free-free frequencies of each body, marker names, joints and
+their equations, which of these are redundant, degrees of freedom, and advice on the step size.
+Without --view it writes no files.
 
 Exit codes: 0 the model can be run, 2 bad input, 3 the mechanism cannot be built or assembled,
 4 numerical failure, 5 files. Details: docs/reference/command-line.md)";
@@ -71,10 +71,10 @@ void add_check_verb(CLI::App& program, Invocation& invocation) {
   verb.add_flag("--view", arguments->view,
                 "Write a page that shows the assembled model: bodies, joints, markers,\n"
                 "loads, axes and names");
-  verb.add_flag("--open", arguments->open, "The same, and open it in the browser");
+  verb.add_flag("--open", arguments->open, "Also open the page in the browser");
   verb.add_option("-o,--out", arguments->page,
-                  "That page; without it the model's name with .html in place of its\n"
-                  "ending, in the current directory")
+                  "File for the page; by default the model's name with its extension\n"
+                  "replaced by .html, in the current directory")
       ->type_name("PAGE");
   add_json_option(verb, invocation);
   verb.footer(kCheckFooter);

@@ -117,13 +117,14 @@ ExitCode compare(const CompareArguments& arguments, bool json) {
 
 constexpr char kCompareFooter[] = R"(
 Examples:
-  buckens compare full reduced                       what differs, the largest first
+  buckens compare full reduced                       differences, largest first
   buckens compare full reduced --sensors --tolerance 1e-3
   buckens compare modes_a modes_b                    frequencies of two `buckens modes -o`
 
-Values are compared at the record times that both runs have; nothing is interpolated. "relative" is
-the difference over the largest magnitude of the quantity in the first run; energies count relative
-to the largest energy. Lengths and angles, forces and torques of one channel are judged apart.
+Values are compared at the record times that the runs have in common; nothing is interpolated.
+"relative" is the difference over the largest magnitude of the quantity in the first run; energies are
+relative to the largest energy. Lengths and angles in one channel are judged separately, as are forces
+and torques.
 
 Exit codes: 0 compared, and within the tolerance if one is given, 2 bad input, 5 files, 6 the runs
 differ by more than the tolerance. Details: docs/reference/command-line.md)";
@@ -136,9 +137,9 @@ void add_compare_verb(CLI::App& program, Invocation& invocation) {
   verb.add_option("A", arguments->first, "Run directory")->required();
   verb.add_option("B", arguments->second, "Run directory")->required();
   verb.add_option("--tolerance", arguments->tolerance,
-                  "Largest relative difference that is accepted; beyond it the exit code is 6")
+                  "Largest acceptable relative difference; beyond it the exit code is 6")
       ->check(any_number(true));
-  verb.add_flag("--sensors", arguments->sensors_only, "Sensors only");
+  verb.add_flag("--sensors", arguments->sensors_only, "Compare sensors only");
   add_json_option(verb, invocation);
   verb.footer(kCompareFooter);
   verb.callback([arguments, &invocation] {

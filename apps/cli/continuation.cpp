@@ -42,12 +42,12 @@ void require_run_to_continue(const fs::path& directory) {
 
 void add_continuation_options(CLI::App& verb, ContinuationArguments& arguments) {
   verb.add_option("--continue", arguments.directory,
-                  "Goes on with the run in OUT where its last checkpoint is: after\n"
-                  "Ctrl-C, a crash, a full disk or a failed step. Without MODEL it is\n"
-                  "the model that was run; --set may change step and tolerance")
+                  "Continue the run in OUT from its last checkpoint, after Ctrl-C, a\n"
+                  "crash, a full disk or a failed step. Without MODEL, the model that\n"
+                  "was run is used; --set may change step and tolerance")
       ->type_name("OUT");
   verb.add_option("--until", arguments.until,
-                  "With --continue: the end of the run [s], later or earlier than planned")
+                  "With --continue: end of the run [s], later or earlier than planned")
       ->type_name("T");
 }
 

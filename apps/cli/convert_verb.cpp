@@ -95,24 +95,25 @@ Examples:
   buckens convert housing.inp housing.msh --length-unit mm
   buckens convert rod.step rod.vtu --size "5 mm"
 
-Writes a mesh anew, in the units that it has: for Gmsh (.msh, text; --binary, --msh-version 2.2) or
-for VTK and ParaView (.vtu). Numbers of nodes and elements, and all sets, stay. Beside OUT.msh the
-model file OUT.msh.yaml is written with what .msh does not hold, units, materials, sections, point
-masses, links and springs: run `buckens modes` on it, or take its parts over. What has no place in
-either is told.
+Writes a mesh in its own units, for Gmsh (.msh, text; --binary, --msh-version 2.2) or for VTK and
+ParaView (.vtu). Node numbers, element numbers and all sets are kept. The model file OUT.msh.yaml is
+written next to OUT.msh with what .msh cannot hold: units, materials, sections, point masses, links
+and springs. Run `buckens modes` on it, or copy parts of it. Whatever neither file can hold is
+reported.
 
-Exit codes: 0 written, 2 bad input, 5 files. Details: docs/tutorials/meshes.md)";
+Exit codes: 0 done, 2 bad input, 5 files. Details: docs/tutorials/meshes.md)";
 
 }  // namespace
 
 void add_convert_verb(CLI::App& program, Invocation& invocation) {
   CLI::App& verb = *program.add_subcommand("convert", "Write a mesh as .msh or .vtu");
   const auto arguments = std::make_shared<ConvertArguments>();
-  verb.add_option("IN", arguments->mesh.file, "Mesh of another program, or STEP file")->required();
-  verb.add_option("OUT", arguments->out, "Ends in .msh or .vtu")->required();
+  verb.add_option("IN", arguments->mesh.file, "Mesh from another program, or STEP file")
+      ->required();
+  verb.add_option("OUT", arguments->out, "File to write, ending in .msh or .vtu")->required();
   add_mesh_options(verb, arguments->mesh);
   verb.add_option("--msh-version", arguments->version, "Version of the .msh format: 4.1 or 2.2");
-  verb.add_flag("--binary", arguments->binary, "Write .msh as bytes");
+  verb.add_flag("--binary", arguments->binary, "Write .msh in binary form");
   add_json_option(verb, invocation);
   verb.footer(kConvertFooter);
   verb.callback([arguments, &invocation] {

@@ -103,13 +103,13 @@ constexpr char kExportFooter[] = R"(
 Examples:
   buckens export out --vtk                  out/export/out.pvd and .vtu files for ParaView
   buckens export out --csv --at 0.05        fields at one instant as tables
-  buckens export out --glb --exaggerate 50  out/export/out.glb for viewers of glTF
+  buckens export out --glb --exaggerate 50  out/export/out.glb for glTF viewers
 
-Instants are those of the fields that the model file asks for (output: {fields: ...}), else the
-records. Works while the run goes on and after it was interrupted.
+The instants are those of the fields requested in the model file (output: {fields: ...}), otherwise
+the records. This works during the run and after it was interrupted.
 
 Exit codes: 0 done, 2 bad input, 5 the run or a file cannot be read or written.
-What is in the files: docs/tutorials/results.md)";
+docs/tutorials/results.md describes the files.)";
 
 }  // namespace
 
@@ -121,21 +121,21 @@ void add_export_verb(CLI::App& program, Invocation& invocation) {
   verb.add_flag("--vtk", arguments->vtk, "VTK: a .vtu file per instant and a .pvd file");
   verb.add_flag("--csv", arguments->csv, "Sensors, fields and extremes as tables");
   verb.add_flag("--glb", arguments->glb, "Binary glTF 2.0: animated surfaces");
-  verb.add_option("-o,--out", arguments->out, "Directory for the files; without it OUT/export")
+  verb.add_option("-o,--out", arguments->out, "Directory for the files; OUT/export by default")
       ->type_name("DIR");
   verb.add_option("--at", arguments->times,
-                  "Instant in seconds, the nearest one is taken; may be repeated.\n"
+                  "Instant in seconds; the nearest one is used. May be repeated.\n"
                   "--glb: pose and colours outside the animation")
       ->type_name("T")
       ->allow_extra_args(false);
-  verb.add_option("--count", arguments->count, "Most instants, evenly spread; 0: all")
+  verb.add_option("--count", arguments->count, "Maximum number of instants, evenly spaced; 0: all")
       ->capture_default_str()
       ->check(number_between(0, 1e9));
-  verb.add_option("--exaggerate", arguments->exaggeration, "--glb: factor of deformations")
+  verb.add_option("--exaggerate", arguments->exaggeration, "--glb: magnification of deformations")
       ->capture_default_str()
       ->check(number_between(0, 1e9));
   verb.add_option("--playback", arguments->playback,
-                  "--glb: seconds that the animation lasts; without it as long as\n"
+                  "--glb: duration of the animation in seconds; by default that of\n"
                   "the run, but 2 to 30 s")
       ->check(any_number(true));
   add_json_option(verb, invocation);

@@ -68,30 +68,28 @@ fem::ImportedMesh MeshArguments::read() const {
 
 void add_mesh_options(CLI::App& verb, MeshArguments& arguments) {
   verb.add_option("--length-unit", arguments.length_unit,
-                  "Unit of the lengths in the file: m, dm, cm, mm, um, in or ft; without it m");
-  verb.add_option(
-      "--mass-unit", arguments.mass_unit,
-      "Unit of mass of the constants in the file: kg, t, g, lb or slinch; without it t\n"
-      "with millimetres, else kg");
+                  "Unit of the lengths in the file: m, dm, cm, mm, um, in or ft; m by default");
+  verb.add_option("--mass-unit", arguments.mass_unit,
+                  "Unit of mass of the constants in the file: kg, t, g, lb or slinch; by default\n"
+                  "t with millimetres, otherwise kg");
   verb.add_option("--only", arguments.only,
-                  "Of a mesh file: the element sets, groups or properties that alone are taken")
+                  "Mesh files: use only these element sets, groups or properties")
       ->type_name("NAME")
       ->delimiter(',')
       ->allow_extra_args(false);
   verb.add_option("--skip", arguments.skip,
-                  "Of a deck: keywords, cards and element types to leave out although they have\n"
+                  "Decks: keywords, cards and element types to leave out although they have\n"
                   "mass or stiffness, such as --skip CELAS2,CONM1")
       ->type_name("NAME")
       ->delimiter(',')
       ->allow_extra_args(false);
-  verb.add_option(
-          "--size", arguments.size,
-          "Of a STEP file: length of the edges of the elements; without it a twentieth of the\n"
-          "part's diagonal, less where walls are thin")
+  verb.add_option("--size", arguments.size,
+                  "STEP files: edge length of the elements; by default a twentieth of the part's\n"
+                  "diagonal, less where walls are thin")
       ->type_name("LENGTH");
   verb.add_option("--solid", arguments.solid,
-                  "Of a STEP file: the one solid that is meant, by name or number; without it all");
-  verb.add_option("--order", arguments.order, "Of a STEP file: order of the elements, 1 or 2")
+                  "STEP files: use only this solid, given by name or number");
+  verb.add_option("--order", arguments.order, "STEP files: order of the elements, 1 or 2")
       ->check(CLI::Range(1, 2));
 }
 

@@ -25,12 +25,12 @@ Examples:
   buckens mesh-info housing.inp --length-unit mm
   buckens mesh-info rod.step --size "5 mm"
 
-Reads a mesh and tells what is in it: nodes and elements, sets and their names, size, volume, mass,
-centre and inertia, the worst element, elements that are turned inside out, nodes at one place,
-pieces that nothing connects, what was left out, and units that are probably wrong. Everything is
-shown in SI units. Writes no files.
+Reads a mesh and reports its content: nodes and elements, sets and their names, size, volume, mass,
+mass centre and inertia, the worst element, inverted elements, coincident nodes, disconnected pieces,
+what was left out, and units that are probably wrong. Everything is shown in SI units. Writes no
+files.
 
-Exit codes: 0 told, 2 bad input, 5 files. Details: docs/tutorials/meshes.md)";
+Exit codes: 0 done, 2 bad input, 5 files. Details: docs/tutorials/meshes.md)";
 
 }  // namespace
 

@@ -111,19 +111,19 @@ ExitCode modes(const ModesArguments& arguments, bool json) {
 constexpr char kModesFooter[] = R"(
 Examples:
   buckens modes slider_crank.yaml                       free vibrations of each flexible body
-  buckens modes slider_crank.yaml --system --count 6    those of the mechanism, joints included
+  buckens modes slider_crank.yaml --system --count 6    modes of the mechanism with its joints
   buckens modes crane.yaml --system --about static -o modes && buckens view modes
 
-Free vibrations are those of a body that nothing holds; its rigid modes are not listed. With
---system the bodies are joined as the model file says: about `initial` as assembled, unloaded, with
-the stiffness of springs; about `static` in equilibrium under gravity and loads, whose change with
-the motion counts. "mass" belongs to the shape with a largest displacement of 1 m; effective masses
-are shares of the whole mass.
+Free vibrations are those of an unconstrained body; its rigid modes are not listed. With --system the
+bodies are connected as in the model file: --about initial is the assembled, unloaded position with
+the stiffness of springs; --about static is the equilibrium under gravity and loads, whose change with
+the motion is included. "mass" belongs to the shape scaled to a largest displacement of 1 m; effective
+masses are shares of the total mass.
 
 Methods: subspace (sieved simultaneous inverse iteration), augmented (bordered matrix), penalty,
-spectra (Lanczos), dense; automatic takes dense up to 600 unknowns and subspace above.
+spectra (Lanczos), dense; automatic uses dense up to 600 unknowns and subspace above.
 
-Without -o no files are written. OUT holds results.h5 with the shapes, and modes.json.
+Without -o no files are written. OUT contains results.h5 with the shapes, and modes.json.
 
 Exit codes: 0 done, 2 bad input, 3 the model cannot be solved, 4 numerical failure, 5 files.
 Details: docs/reference/command-line.md)";
@@ -131,15 +131,15 @@ Details: docs/reference/command-line.md)";
 }  // namespace
 
 void add_modes_verb(CLI::App& program, Invocation& invocation) {
-  CLI::App& verb = *program.add_subcommand("modes", "Frequencies and shapes of vibrations");
+  CLI::App& verb = *program.add_subcommand("modes", "Compute natural frequencies and mode shapes");
   const auto arguments = std::make_shared<ModesArguments>();
   add_model_options(verb, arguments->model, arguments->overrides);
   CLI::Option* body = verb.add_option("--body", arguments->body, "Only this body");
-  verb.add_option("--count", arguments->count, "Number of modes, 10 if not given")
+  verb.add_option("--count", arguments->count, "Number of modes, 10 by default")
       ->check(CLI::Range(1, 100000));
   const auto methods = choice_names(body::FreeModeMethod{});
   CLI::Option* method =
-      verb.add_option("--method", arguments->method, "How free vibrations are computed")
+      verb.add_option("--method", arguments->method, "Eigensolver for free vibrations")
           ->check(CLI::IsMember(std::vector<std::string>(methods.begin(), methods.end())));
   CLI::Option* condition = verb.add_flag("--condition", arguments->condition,
                                          "Estimate the condition number of the factored matrix");
@@ -149,11 +149,12 @@ void add_modes_verb(CLI::App& program, Invocation& invocation) {
       ->check(CLI::IsMember({"initial", "static"}))
       ->needs(system);
   system->excludes(body)->excludes(method)->excludes(condition);
-  verb.add_option("--tolerance", arguments->tolerance, "Relative error of the shapes, 1e-9")
+  verb.add_option("--tolerance", arguments->tolerance,
+                  "Relative error of the shapes, 1e-9 by default")
       ->check(number_between(1e-14, 1e-2));
   verb.add_option("--threads", arguments->threads,
-                  "Threads that share large bodies; 1 if not given. Results are the same to the\n"
-                  "last bit")
+                  "Number of threads that share large bodies, 1 by default. Results are bitwise\n"
+                  "identical")
       ->check(CLI::Range(1, kMostThreads));
   verb.add_option("-o,--out", arguments->out, "Directory for the shapes")->type_name("OUT");
   add_json_option(verb, invocation);

@@ -168,16 +168,16 @@ Examples:
   buckens plot coarse fine --sensor tip.y          the same curve of two runs
   buckens plot out angle.velocity --x angle        one sensor over another
 
-A sensor without component gives all its components; NAME.norm is the length of a vector. Curves of
-different units get diagrams of their own, one below the other.
+A sensor without a component gives all its components; NAME.norm is the length of a vector. Curves
+with different units get separate diagrams, one below the other.
 
-Exit codes: 0 done, 2 bad input, 5 a run cannot be read or the picture not be written.
+Exit codes: 0 done, 2 bad input, 5 a run cannot be read or the picture cannot be written.
 Details: docs/tutorials/results.md)";
 
 }  // namespace
 
 void add_plot_verb(CLI::App& program, Invocation& invocation) {
-  CLI::App& verb = *program.add_subcommand("plot", "Draw curves of sensors into a picture");
+  CLI::App& verb = *program.add_subcommand("plot", "Plot sensors to a picture");
   const auto arguments = std::make_shared<PlotArguments>();
   verb.add_option("OUT SENSOR...", arguments->places,
                   "Run directories, and names of sensors or channels")
@@ -185,14 +185,14 @@ void add_plot_verb(CLI::App& program, Invocation& invocation) {
   verb.add_option("--sensor", arguments->sensors, "Name of a sensor; may be repeated")
       ->type_name("NAME")
       ->allow_extra_args(false);
-  verb.add_option("-o,--out", arguments->out, "The picture: .svg, .png or .pdf")
+  verb.add_option("-o,--out", arguments->out, "File for the picture: .svg, .png or .pdf")
       ->type_name("FILE")
       ->capture_default_str();
-  verb.add_option("--x", arguments->x, "Sensor along the horizontal axis in place of time")
+  verb.add_option("--x", arguments->x, "Sensor for the horizontal axis instead of time")
       ->type_name("NAME");
-  verb.add_option("--from", arguments->from, "Begin in seconds")->check(any_number(false));
-  verb.add_option("--to", arguments->to, "End in seconds")->check(any_number(false));
-  verb.add_option("--title", arguments->title, "Title; without it that of the model");
+  verb.add_option("--from", arguments->from, "Start time in seconds")->check(any_number(false));
+  verb.add_option("--to", arguments->to, "End time in seconds")->check(any_number(false));
+  verb.add_option("--title", arguments->title, "Title; that of the model by default");
   verb.add_option("--size", arguments->size, "Width and height in points of 1/96 inch")
       ->expected(2)
       ->type_name("W H")

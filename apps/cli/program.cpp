@@ -28,24 +28,24 @@ constexpr char kDescription[] =
     "model, which is factorised once per simulation.\n";
 
 constexpr char kProgramFooter[] = R"(
-Begin with:
-  buckens check examples/slider_crank/slider_crank.yaml        what the model is
+Getting started:
+  buckens check examples/slider_crank/slider_crank.yaml        describe the model
   buckens run examples/slider_crank/slider_crank.yaml -o out   simulate it
-  buckens view out                                             make a page that shows it
-  buckens run --help                                           every verb explains itself
+  buckens view out                                             write a page that shows the run
+  buckens run --help                                           help on a verb
 
 Exit codes:
   0    done
   1    internal error; please report it with the model file
   2    bad input: model file or command line
   3    the model can be read but not built, assembled or solved
-  4    numerical failure, or not enough memory; results up to it are kept
+  4    numerical failure, or not enough memory; results up to that point are kept
   5    a file cannot be read or written
-  6    two runs differ by more than was accepted (`buckens compare`)
-  130  interrupted by Ctrl-C, SIGTERM or SIGHUP; results up to it are complete
+  6    two runs differ by more than the tolerance (`buckens compare`)
+  130  interrupted by Ctrl-C, SIGTERM or SIGHUP; results up to that point are complete
 
-Documentation: docs/ in the source tree; docs/reference/model-file.md is what `buckens reference`
-prints, docs/reference/command-line.md describes the verbs.)";
+The documentation is in docs/ of the source tree: docs/reference/command-line.md describes the verbs,
+docs/reference/model-file.md is what `buckens reference` prints.)";
 
 void describe(CLI::App& app) {
   app.name("buckens");

@@ -260,23 +260,23 @@ Example:
   buckens run slider_crank.yaml --save-state half.h5 --save-state-at 0.05
   buckens run slider_crank.yaml -o rest --start-from half.h5
 
-The directory OUT holds results.h5 (everything recorded), sensors.csv (the sensors of the model
+The directory OUT contains results.h5 (everything recorded), sensors.csv (the sensors of the model
 file), summary.json (effort, residuals, energy, trust), model.yaml (the model as it was read) and
-log.txt. It can be read while the run goes on. An earlier run in OUT is replaced once the set-up of
-this one has succeeded; a directory that holds anything else is refused.
+log.txt. These can be read during the run. An earlier run in OUT is replaced once the set-up of this
+one has succeeded; a directory that contains anything else is refused.
 
-With --error (or `error: on` in `simulation`) further runs improve one thing each: half the step, a
-finer mesh, more frames on beams, full coupling, full meshes. From what they differ the summary gives
-every sensor an uncertainty. It takes several times as long as the run. See
+With --error (or `error: on` in `simulation`), additional runs each improve one thing: half the step,
+a finer mesh, more frames on beams, full coupling, full meshes. From the differences the summary gives
+every sensor an uncertainty. This takes several times as long as the run. See
 docs/tutorials/error-statement.md.
 
-Ctrl-C (or SIGTERM) finishes the current step and completes the files; a second one ends the program
-at once, and then at most the last second of results is missing. `buckens run --continue OUT` goes on
-from the checkpoint in OUT, written at the end and every 30 s (simulation.checkpoint), to the same
-results bit for bit as without an interruption.
+Ctrl-C (or SIGTERM) finishes the current step and completes the files. A second one ends the program
+immediately; at most the last second of results is then missing. `buckens run --continue OUT` resumes
+from the checkpoint in OUT, which is written at the end and every 30 s (simulation.checkpoint). The
+results are bitwise identical to those of an uninterrupted run.
 
-Exit codes: 0 done, 2 bad input, 3 the model cannot be solved, 4 numerical failure (results up to it
-are kept), 5 files, 130 interrupted. Details: docs/reference/command-line.md)";
+Exit codes: 0 done, 2 bad input, 3 the model cannot be solved, 4 numerical failure (results up to that
+point are kept), 5 files, 130 interrupted. Details: docs/reference/command-line.md)";
 
 }  // namespace
 
@@ -285,22 +285,22 @@ void add_run_verb(CLI::App& program, Invocation& invocation) {
   const auto arguments = std::make_shared<RunArguments>();
   add_model_options(verb, arguments->model, arguments->overrides);
   verb.add_option("-o,--out", arguments->out,
-                  "Directory for the results; without it the model's name with .out in\n"
-                  "place of its ending, in the current directory")
+                  "Directory for the results; by default the model's name with its extension\n"
+                  "replaced by .out, in the current directory")
       ->type_name("OUT");
   verb.add_flag(
       "-q,--quiet", arguments->quiet,
-      "No progress and no summary; warnings, reasons to doubt the results and\nerrors only");
+      "No progress and no summary; only warnings, reasons to doubt the results and\nerrors");
   verb.add_flag("--error", arguments->error,
-                "State by how much each sensor may be off: repeats the run with half the\n"
+                "State how far each sensor may be off, by repeating the run with half the\n"
                 "step, finer meshes, and more of what the model reduces");
   verb.add_option("--threads", arguments->threads,
-                  "Threads that advance bodies at the same time, two of them also one large\n"
-                  "body; 1 if not given. Results are the same to the last bit")
+                  "Number of threads, which advance bodies concurrently and share the solves of\n"
+                  "large ones; 1 by default. Results are bitwise identical")
       ->check(CLI::Range(1, kMostThreads));
   verb.add_option("--factors", arguments->factors,
-                  "Folder in which large factors are kept and looked for: a second run with the\n"
-                  "same matrices need not compute them. Results are the same to the last bit")
+                  "Folder in which large factors are kept and looked up: a second run with the\n"
+                  "same matrices need not compute them again. Results are bitwise identical")
       ->type_name("DIR");
   add_state_options(verb, arguments->state);
   verb.get_option("MODEL")->required(false);
@@ -309,7 +309,8 @@ void add_run_verb(CLI::App& program, Invocation& invocation) {
   verb.footer(kRunFooter);
   verb.callback([arguments, &invocation] {
     if (arguments->model.empty() && arguments->continuation.directory.empty()) {
-      throw CLI::ValidationError("MODEL is required, unless --continue OUT says which run goes on");
+      throw CLI::ValidationError(
+          "MODEL is required, unless --continue OUT names the run to continue");
     }
     invocation.action = [arguments, &invocation] { return run(*arguments, invocation.json); };
   });

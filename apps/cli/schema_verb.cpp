@@ -12,8 +12,8 @@ constexpr char kSchemaFooter[] = R"(
 Example:
   buckens schema > buckens.schema.json
 
-Editors that know JSON Schema (2020-12) then complete and check model files; with the YAML extension
-of many editors this first line of a model file is enough:
+Editors that support JSON Schema (2020-12) can then complete and check model files. With the YAML
+extension of many editors, this first line of a model file is enough:
   # yaml-language-server: $schema=buckens.schema.json)";
 
 constexpr char kReferenceFooter[] = R"(

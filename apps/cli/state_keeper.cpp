@@ -29,16 +29,16 @@ void StateArguments::check(double duration) const {
 
 void add_state_options(CLI::App& verb, StateArguments& arguments) {
   verb.add_option("--save-state", arguments.save,
-                  "File for the state in which the run ends, for --start-from; an\n"
-                  "interrupted run saves it, too")
+                  "Save the final state to FILE, for --start-from; an interrupted run\n"
+                  "saves it, too")
       ->type_name("FILE");
   verb.add_option("--save-state-at", arguments.save_at,
-                  "Saves the state at the end of the step that reaches this time [s],\n"
-                  "instead of that at the end")
+                  "Save the state at the end of the step that reaches this time [s],\n"
+                  "instead of the final state")
       ->type_name("T");
   verb.add_option("--start-from", arguments.start_from,
-                  "Goes on from a saved state of the same model, to the same results bit\n"
-                  "for bit as an uninterrupted run; title and duration may change")
+                  "Continue from a saved state of the same model, with results bitwise\n"
+                  "identical to an uninterrupted run; title and duration may change")
       ->type_name("FILE");
 }
 

@@ -106,12 +106,12 @@ Example:
   buckens view path
 
 The applied forces and torques of the model are multiplied by a load factor that goes from 0 to 1, or
-as `static:` in the model file says; gravity, springs and drives are not. With `method: arc-length`
-the path is followed through limit points, where the load has to fall; they are located and reported,
-as are bifurcations.
+as `static:` in the model file says; gravity, springs and drives are not scaled. With `method:
+arc-length` the path is followed through limit points, beyond which the load has to fall. Limit points
+and bifurcations are located and reported.
 
-OUT is a run directory as `buckens run` writes it. Its time is the length of the path in steps; the
-load factor is the first column of sensors.csv after it, `load-factor`.
+OUT is a run directory like that of `buckens run`. Its time is the length of the path in steps; the
+next column of sensors.csv, `load-factor`, is the load factor.
 
 Exit codes: 0 done, 2 bad input, 3 a mechanism or no equilibrium, 4 the end of the path was not reached
 (its points are kept), 5 files, 130 interrupted. Details: docs/reference/command-line.md)";
@@ -124,11 +124,11 @@ void add_static_verb(CLI::App& program, Invocation& invocation) {
   const auto arguments = std::make_shared<StaticArguments>();
   add_model_options(verb, arguments->model, arguments->overrides);
   verb.add_option("-o,--out", arguments->out,
-                  "Directory for the results; without it the model's name with .static.out in\n"
-                  "place of its ending, in the current directory")
+                  "Directory for the results; by default the model's name with its extension\n"
+                  "replaced by .static.out, in the current directory")
       ->type_name("OUT");
   verb.add_flag("-q,--quiet", arguments->quiet,
-                "No summary; warnings, reasons to doubt the results and errors only");
+                "No summary; only warnings, reasons to doubt the results and errors");
   add_json_option(verb, invocation);
   verb.footer(kStaticFooter);
   verb.callback([arguments, &invocation] {

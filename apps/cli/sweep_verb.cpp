@@ -240,21 +240,21 @@ Example:
   buckens sweep slider_crank.yaml variants.csv -o speeds
   buckens sweep slider_crank.yaml --vary "parameters.speed=[100, 125, 150]" -o speeds
 
-TABLE is a CSV file. Its first line names quantities of the model file as --set does, every further
-line is a variant; a column `name` names the run directories. Values that hold commas stand in
-double quotes: "[36, 2, 2]". With several --vary all combinations are run.
+TABLE is a CSV file. Its first line names quantities of the model file as in --set, and every other
+line is a variant; the column `name` names the run directories. Put values that contain commas in
+double quotes: "[36, 2, 2]". With several --vary, all combinations are run.
 
-Each variant becomes the run directory OUT/NAME; OUT/sweep.csv has a row per variant with effort,
+Each variant becomes the run directory OUT/NAME. OUT/sweep.csv has one row per variant with effort,
 energy error, trust, and the last value and extremes of every sensor. Variants whose bodies have
 equal matrices advance side by side: one factorisation serves all, and their solves read it once.
 
-With --shard I/N this process runs the I-th of N parts of the table, as tasks of a job array do;
-variants that share factors stay together. When all have ended, `buckens sweep --merge OUT` makes
-the table. Every shard may be started again: it keeps what is finished. `--status OUT` tells, from
-any process that sees the directory, how far they are.
+With --shard I/N this process runs the I-th of N parts of the table, for example as a task of a job
+array; variants that share factors stay together. When all parts are finished, `buckens sweep --merge
+OUT` writes the table. A shard can be started again and keeps what is finished. `--status OUT` reports
+the progress of all shards from any process that can see the directory.
 
-A variant that fails does not stop the others. Ctrl-C ends the sweep after the steps that go on; the
-same command later keeps what is finished and runs the rest.
+A variant that fails does not stop the others. Ctrl-C ends the sweep after the current steps; running
+the same command later keeps what is finished and runs the rest.
 
 Exit codes: 0 all done, 2 bad input, 4 some variants failed, 5 files, 130 interrupted.
 Details: docs/tutorials/sweeps.md)";
@@ -267,24 +267,25 @@ void add_sweep_verb(CLI::App& program, Invocation& invocation) {
   add_model_options(verb, arguments->model, arguments->overrides);
   verb.get_option("MODEL")->required(false);
   verb.add_option("TABLE", arguments->table, "Table of variants (CSV)");
-  verb.add_option("--vary", arguments->ranges, "Values of one quantity; may be given repeatedly")
+  verb.add_option("--vary", arguments->ranges, "Values of one quantity; may be repeated")
       ->type_name("PATH=[VALUE,...]")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   verb.add_option("-o,--out", arguments->out,
-                  "Directory for the runs; without it the model's name with .sweep in\n"
-                  "place of its ending, in the current directory")
+                  "Directory for the runs; by default the model's name with its extension\n"
+                  "replaced by .sweep, in the current directory")
       ->type_name("OUT");
-  verb.add_option("--together", arguments->together, "Most variants that advance side by side")
+  verb.add_option("--together", arguments->together,
+                  "Maximum number of variants that advance side by side")
       ->capture_default_str()
       ->check(CLI::Range(1, 32));
   verb.add_option("--shard", arguments->shard, "Only the I-th of N parts of the variants")
       ->type_name("I/N");
-  verb.add_option("--merge", arguments->merge, "Make the table of the parts that lie in OUT")
+  verb.add_option("--merge", arguments->merge, "Write the table from the parts in OUT")
       ->type_name("OUT");
-  verb.add_option("--status", arguments->status, "Tell how far the sweep into OUT is")
+  verb.add_option("--status", arguments->status, "Report the progress of the sweep in OUT")
       ->type_name("OUT");
-  verb.add_flag("-q,--quiet", arguments->quiet, "Failures only");
+  verb.add_flag("-q,--quiet", arguments->quiet, "Show failures only");
   add_json_option(verb, invocation);
   verb.footer(kSweepFooter);
   verb.callback([arguments, &invocation] {

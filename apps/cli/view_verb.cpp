@@ -117,39 +117,40 @@ constexpr char kViewFooter[] = R"(
 Example:
   buckens run slider_crank.yaml -o out
   buckens view out
-  buckens view out --open                  and opens it in the browser
-  buckens view out --live --open           follows a run that goes on
-  buckens view out other -o both.html      two runs side by side
+  buckens view out --open                  also opens the page in the browser
+  buckens view out --live --open           follows a run in progress
+  buckens view out other -o both.html      shows two runs side by side
 
-Writes out/view.html, one file that needs nothing else: the machine in motion with its deformation,
-stresses and other fields, and the curves of the sensors. Works while the run goes on and after it
-was interrupted. With --live it is served instead and renewed as the run goes on, until Ctrl-C: at
-an address of this machine that only its user is told.
+Writes out/view.html, a self-contained page with the machine in motion, its deformation, stresses and
+other fields, and the curves of the sensors. This works during the run and after it was interrupted.
+With --live the page is served instead, and updated during the run, until Ctrl-C; its address on this
+machine is shown to its user only.
 
 Exit codes: 0 done, 2 bad command line, 5 the run or the page cannot be read or written.
-The page is explained in docs/tutorials/viewer.md)";
+docs/tutorials/viewer.md explains the page.)";
 
 }  // namespace
 
 void add_view_verb(CLI::App& program, Invocation& invocation) {
-  CLI::App& verb = *program.add_subcommand("view", "Make a web page that shows a run");
+  CLI::App& verb = *program.add_subcommand("view", "Write a web page that shows a run");
   const auto arguments = std::make_shared<ViewArguments>();
   verb.add_option("OUT", arguments->runs,
                   "Run directory, as written by `buckens run`; two are shown side by side")
       ->required()
       ->expected(1, 2);
-  verb.add_option("-o,--out", arguments->page, "The page; without it OUT/view.html")
+  verb.add_option("-o,--out", arguments->page, "File for the page; OUT/view.html by default")
       ->type_name("PAGE");
   verb.add_flag("--open", arguments->open, "Open the page in the browser");
   verb.add_flag("--live", arguments->live,
-                "Serve the page on this machine, following the run while it goes on");
-  verb.add_option("--frames", arguments->frames, "Most frames in the page")
+                "Serve the page on this machine and update it during the run");
+  verb.add_option("--frames", arguments->frames, "Maximum number of frames in the page")
       ->capture_default_str()
       ->check(CLI::Range(2, 1000000));
-  verb.add_option("--fields", arguments->fields, "Fields to show, without it all: von_mises,stress")
+  verb.add_option("--fields", arguments->fields,
+                  "Fields to show, such as von_mises,stress; all by default")
       ->type_name("NAMES");
   verb.add_option("--max-size", arguments->megabytes,
-                  "Most numbers in the page [MiB]; fewer frames are taken to keep it")
+                  "Maximum size of the numbers in the page [MiB]; frames are left out if needed")
       ->capture_default_str()
       ->check(CLI::Range(1, 300));
   add_json_option(verb, invocation);
