@@ -16,9 +16,9 @@ constexpr const char* kIntroduction = R"(# The model file
 <!-- Written by the program from the field lists of its input. Do not edit: run
      `buckens reference > docs/reference/model-file.md`. -->
 
-A model file is YAML (JSON, being a subset, works too). `buckens check MODEL.yaml` says what is wrong
-with it, with line and column; `buckens schema` prints a JSON Schema with which editors complete and
-check it. The smallest complete model:
+This page lists every key of a model file. A model file is YAML; JSON, which is a subset, works too.
+`buckens check MODEL.yaml` reports what is wrong with it, with line and column. `buckens schema` prints a
+JSON Schema that lets editors complete and check model files. The smallest complete model is
 
 ```yaml
 buckens: 1
@@ -34,51 +34,57 @@ output: {every: 10 ms, sensors: {com: {position: rod}}}
 
 ## Values
 
-**Numbers** are plain decimals (`75`, `-2.5e3`), at most 1e60; they are SI. Anything that programs read in
-different ways is refused: `010`, `0x10`, `yes` for a number, `.inf`, duplicate keys, anchors, merge keys.
+**Numbers** are plain decimals (`75`, `-2.5e3`) of at most 1e60, in SI units. Anything that different
+programs read differently is refused: `010`, `0x10`, `yes` for a number, `.inf`, duplicate keys, anchors,
+merge keys.
 
 **Quantities** carry a unit after white space: `75 mm`, `9.81 m/s^2`, `-2.727e-3 kg m^2`. Units are
-multiplied by a blank, `*` or `·`, divided by `/` (each slash divides by the one unit that follows:
+multiplied by a blank, `*` or `·`, divided by `/` (each slash divides only by the unit that follows:
 `kg/m/s`), and raised with `^`. A wrong dimension is an error. The radian may be left out next to
 a mass (`N m` for `N m/rad`), but not between `Hz` and `rad/s`. Known units:
 
 )";
 
 constexpr const char* kValues = R"(
-**Expressions** are allowed wherever numbers are: `2*L`, `"L/2 + 10"`, `"2*pi*50 rad/s"`. They know the
-entries of `parameters` (in SI), `pi`, `e`, and the functions sin, cos, tan, asin, acos, atan, atan2,
-sinh, cosh, tanh, exp, ln, log10, log2, sqrt, abs, sign, rint, min, max, sum, avg; powers are `^`,
-conditions `a < b ? x : y`. The unit, if any, is the ending after white space and multiplies the whole:
-`"10*sin(20*t) N"`, `"2*L mm"`. Quote expressions that contain `: `, ` #`, `,` or braces.
+**Expressions** are allowed wherever numbers are: `2*L`, `"L/2 + 10"`, `"2*pi*50 rad/s"`. They may use the
+entries of `parameters` (in SI units), `pi`, `e`, and the functions sin, cos, tan, asin, acos, atan, atan2,
+sinh, cosh, tanh, exp, ln, log10, log2, sqrt, abs, sign, rint, min, max, sum, avg; powers are written `^`,
+conditions `a < b ? x : y`. A unit, if any, comes last, after white space, and multiplies the whole
+expression: `"10*sin(20*t) N"`, `"2*L mm"`. Quote expressions that contain `: `, ` #`, `,` or braces.
 
 **Laws of time** are numbers, expressions of `t` (seconds), or tables:
 
 )";
 
 constexpr const char* kLawRemarks = R"(
-A table must cover the simulation, unless `extrapolation: hold` extends it by its first and last value.
-Where a law drives a joint its first and second derivatives are used: formulas are differentiated
-numerically to about eleven digits and must be defined around every time that occurs; at t = 0 only what
-follows counts, so `max(t, 0)` starts with speed 1. A law whose speed is unbounded at t = 0 (`sqrt(t)`) is
-refused, one whose acceleration is (`t^1.5`) is warned about. Tables should be splines. CSV columns are separated by commas, semicolons or blanks; lines that begin with `#`
-and one heading line, whose first cell does not begin like a number, are skipped.
+A table must cover the simulation, unless `extrapolation: hold` extends its first and last value. CSV
+columns are separated by commas, semicolons or blanks. Lines that begin with `#` are skipped, and so is one
+heading line, whose first cell does not begin like a number.
+
+If a law drives a joint, its first and second derivatives are used. Formulas are differentiated
+numerically to about eleven digits and must be defined in a neighbourhood of every time that occurs. At
+t = 0 only later times count, so `max(t, 0)` starts with speed 1. A law with unbounded speed at t = 0
+(`sqrt(t)`) is refused; one with unbounded acceleration (`t^1.5`) causes a warning. Tables should be splines.
 
 **Laws of signals** are laws of time or expressions of `t` and the names of `signals`:
 `"20*(0.5 - angle) - 3*speed"`. Signals are numbers in SI units.
 
 **Characteristics** are expressions of `angle` (or `displacement`) and `rate`, or tables as above with the
-angle in rad or the displacement in m in place of the time.
+angle in rad or the displacement in m instead of the time.
+
+**As placed** means the position of the bodies in the model file, before assembly and a static start move
+them.
 
 **Markers** are written `ground` (the world), `rod` (the body frame, at the mass centre), `rod/origin`
 (origin of the model axes), `rod/com`, `rod/start`, `rod/mid`, `rod/end` (beams), `rod/<node>`
 (structures), `rod/<marker>` (entries of `markers`), or `{ground: [x, y, z]}` for a point of the world.
-Markers have the axes of their body's model axes unless they define their own.
+Markers use the model axes of their body unless they define their own.
 
 **Names** consist of letters, digits, `_` and `-`. **Axes:** a body is described in its model axes, which
 `at` places in the world; lists of three are x, y, z components.
 
 **Changes from the command line:** `--set bodies.rod.beam.elements=8`, `--set parameters.L="2 m"`,
-`--set gravity.1=0` (items are counted from 0).
+`--set gravity.1=0` (list entries are counted from 0).
 
 )";
 
@@ -238,7 +244,9 @@ std::string model_reference_markdown() {
   ReferenceWriter law;
   for (const FieldShape& joint : model_file_shape().find("joints")->shape.element[0].alternatives) {
     const FieldShape* angle = joint.shape.find("angle");
-    if (angle != nullptr) law.write_table(angle->shape.element[0]);
+    if (angle == nullptr) continue;
+    law.write_table(angle->shape.element[0]);
+    break;  // every joint with an angle takes the same laws
   }
   out += law.text + kLawRemarks;
   ReferenceWriter writer;

@@ -33,6 +33,15 @@ TEST(ModelReference, CommittedFilesAreCurrent) {
       << "run: buckens reference > docs/reference/model-file.md";
 }
 
+TEST(ModelReference, TheKeysOfLawsOfTimeAreListedOnce) {
+  const std::string page = model_reference_markdown();
+  const std::size_t begin = page.find("**Laws of time**");
+  const std::string laws = page.substr(begin, page.find("**Laws of signals**") - begin);
+  const std::size_t head = laws.find("| key |");
+  ASSERT_NE(head, std::string::npos);
+  EXPECT_EQ(laws.find("| key |", head + 1), std::string::npos);
+}
+
 TEST(ModelReference, ItsExampleCanBeRead) {
   const std::string page = model_reference_markdown();
   const std::size_t begin = page.find("```yaml\n") + 8;
