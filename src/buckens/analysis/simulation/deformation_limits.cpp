@@ -128,8 +128,8 @@ std::string doubt_axial_load(const DeformedBody& body, const DeformationMeasure&
                                ? fmt::format("by up to about {:.0f} %", 100.0 * error)
                                : std::string("without bound");
   return fmt::format(
-      "body \"{}\" carries up to {}, which linear elasticity within a frame does not let act on "
-      "bending, so that deflections err {}; use `frames: {}`",
+      "body \"{}\" carries up to {}; linear elasticity within one frame ignores its effect on "
+      "bending, and deflections err {}; use `frames: {}`",
       body.name, load, size, frames);
 }
 

@@ -25,9 +25,9 @@ std::string describe_undecided(long undecided, long steps) {
 
 std::string describe_jammed(long jammed, long impacts) {
   return fmt::format(
-      "in {} of {} impacts on rigid contacts and stops friction jammed: no impulses both stop the "
-      "slip and part the bodies with their `restitution`, so that they were stopped without a "
-      "rebound, and what it would have given back was lost; give these contacts less `static`, no "
+      "friction jammed in {} of {} impacts on rigid contacts and stops: no impulses both stop the "
+      "slip and separate the bodies with their `restitution`, so they were stopped without a "
+      "rebound, and the energy of the rebound was lost; give these contacts less `static`, no "
       "`restitution`, or a `stiffness` if they should rebound",
       jammed, impacts);
 }

@@ -37,7 +37,7 @@ std::string JointTrust::doubt(double duration) const {
   }
   if (opening_rate_ > kOpenRate * speed_ && opening_rate_ * duration > kOpenJoint) {
     return fmt::format(
-        "velocities violate the joints by up to {:.2g} of the largest there are; use a smaller "
+        "velocities violate the joints by up to {:.2g} of the largest velocity; use a smaller "
         "step or `newton-tolerance`",
         opening_rate_ / speed_);
   }
