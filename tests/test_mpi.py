@@ -78,7 +78,7 @@ LARGE = {
     "rigid interface": ("bodies.cube.interfaces.bearing.kind=rigid",),
     # C is no sum of M and K: each step multiplies by C, too.
     "held damping": ("bodies.cube.interfaces.bearing.kind=rigid", "materials.steel.damping={ratio: 2 %, at: [100 Hz, 20 kHz]}"),
-    # Each length of step has a factor of its own, for which M and K come together again.
+    # Each length of step has a factor of its own, of M and K that stay where they are.
     "steps of its own": ("simulation.step=auto", "simulation.tolerance=1e-4", "simulation.duration=0.1 ms", "output.every=0.05 ms"),
 }
 
@@ -373,6 +373,33 @@ def test_too_little_memory_for_a_part_of_the_factor(tmp_path):
     assert result.returncode != 0
     told = [line for line in result.stderr.splitlines() if line.startswith("buckens: error")]
     assert len(told) == 1 and "too little memory" in told[0] and "equations on 2 processes" in told[0], result.stderr
+
+
+@several
+def test_too_little_memory_for_making_columns(tmp_path):
+    """Processes other than the first assemble M and K of solids, so one of them lacks memory before there is a factor."""
+    (tmp_path / "cube.yaml").write_text(CUBE)
+    one_heap = {**ENVIRONMENT, "MALLOC_ARENA_MAX": "1"}
+    idle = subprocess.Popen([MPIRUN, "-n", "2", PROGRAM, "run", BLOCKS, "-o", "idle", "-q", "--set", "simulation.duration=30 s"], cwd=tmp_path,
+                            env=one_heap, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        deadline = time.monotonic() + 120
+        csv = tmp_path / "idle" / "sensors.csv"
+        while not csv.exists() or len(csv.read_text().splitlines()) < 3:
+            assert time.monotonic() < deadline and idle.poll() is None
+            time.sleep(0.1)
+        needed = virtual_memory(started(idle, 1))
+    finally:
+        idle.terminate()
+        idle.wait(timeout=60)
+    # K of both triangles takes 20 MB, and what elements add to it as much again.
+    limited = f"[ $OMPI_COMM_WORLD_RANK = 0 ] || ulimit -v {(needed + 16_000_000) // 1024}; exec \"$@\""
+    command = [MPIRUN, "-n", "2", "sh", "-c", limited, "sh", PROGRAM, "run", "cube.yaml", "-o", "out"]
+    result = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=240, check=False, env=one_heap,
+                            stdin=subprocess.DEVNULL)
+    assert result.returncode != 0
+    told = [line for line in result.stderr.splitlines() if line.startswith("buckens: error")]
+    assert len(told) == 1 and "equations on 2 processes could not be made" in told[0] and "too little memory" in told[0], result.stderr
 
 
 def test_one_process_counts_nothing(buckens, tmp_path):

@@ -13,6 +13,7 @@
 #include "cli/program.h"
 
 #include "buckens/base/errors.h"
+#include "buckens/fem/assembly/made_columns.h"
 #include "buckens/linalg/grid_library.h"
 #include "buckens/linalg/ranks.h"
 
@@ -56,7 +57,7 @@ int run_together(int argc, const char* const* argv) {
   // The first process ends the others: after Ctrl-C it still completes its step with their help.
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_IGN);
-  ranks.serve();
+  ranks.serve(fem::made_columns);
   return 0;
 }
 

@@ -86,7 +86,7 @@ void plugin_join(int* rank, int* count) {
   *count = Ranks::join().count();
 }
 
-void plugin_serve() { Ranks::join().serve(); }
+void plugin_serve(const BuckensGridMaker* maker) { Ranks::join().serve(*maker); }
 
 void plugin_leave() { Ranks::join().leave(); }
 
@@ -94,19 +94,63 @@ void plugin_traffic(BuckensGridTraffic* traffic) {
   *traffic = ranks() != nullptr ? ranks()->traffic() : BuckensGridTraffic{};
 }
 
-int plugin_divide(int size, const BuckensGridColumns* all, char* error, int error_size) {
+/// A matrix of the others. @param make (ranks) → its number
+template <class Make>
+int number_of(char* error, int error_size, Make&& make) {
   if (ranks() == nullptr) set_reason("there are no other processes");
-  const int number = ranks() != nullptr ? ranks()->divide(size, *all) : -1;
+  const int number = ranks() != nullptr ? make(*ranks()) : -1;
   if (number < 0) fail(error, error_size);
   return number;
 }
 
+int plugin_divide(int size, const BuckensGridColumns* all, BuckensGridFacts* facts, char* error,
+                  int error_size) {
+  return number_of(error, error_size,
+                   [&](Ranks& all_of_them) { return all_of_them.divide(size, *all, *facts); });
+}
+
 int plugin_divide_rows(int rows, int columns, const BuckensGridColumns* all, char* error,
                        int error_size) {
-  if (ranks() == nullptr) set_reason("there are no other processes");
-  const int number = ranks() != nullptr ? ranks()->divide_rows(rows, columns, *all) : -1;
-  if (number < 0) fail(error, error_size);
-  return number;
+  return number_of(error, error_size, [&](Ranks& all_of_them) {
+    return all_of_them.divide_rows(rows, columns, *all);
+  });
+}
+
+int plugin_make_columns(int size, const BuckensGridDescription* of, BuckensGridFacts* facts,
+                        char* error, int error_size) {
+  return number_of(error, error_size,
+                   [&](Ranks& all_of_them) { return all_of_them.make_columns(size, *of, *facts); });
+}
+
+int plugin_add_up(int count, const int* terms, const double* weights, BuckensGridFacts* facts,
+                  char* error, int error_size) {
+  return number_of(error, error_size, [&](Ranks& all_of_them) {
+    return all_of_them.add_up(count, terms, weights, *facts);
+  });
+}
+
+double plugin_inner_product(int count, const int* terms, const double* a, const double* b) {
+  return ranks()->inner_product(count, terms, a, b);
+}
+
+void plugin_diagonal(int matrix, double* values) { ranks()->diagonal(matrix, values); }
+
+int plugin_marks(int count, const int* terms, unsigned long long* marks, char* error,
+                 int error_size) {
+  return ranks()->marks(count, terms, marks) ? 0 : fail(error, error_size);
+}
+
+int plugin_edges(int count, const int* terms, const int* vertex, long* num_edges, const int** pairs,
+                 char* error, int error_size) {
+  if (pairs == nullptr) {
+    ranks()->forget_edges();
+    return 0;
+  }
+  const std::vector<int>* found = ranks()->edges(count, terms, vertex);
+  if (found == nullptr) return fail(error, error_size);
+  *num_edges = static_cast<long>(found->size() / 2);
+  *pairs = found->data();
+  return 0;
 }
 
 void plugin_multiply(int count, const int* matrices, const double* const* x, double* const* y) {
@@ -122,10 +166,8 @@ void plugin_forget(int matrix) {
 }
 
 int plugin_make_pairs(int rows, int most, char* error, int error_size) {
-  if (ranks() == nullptr) set_reason("there are no other processes");
-  const int number = ranks() != nullptr ? ranks()->make_pairs(rows, most) : -1;
-  if (number < 0) fail(error, error_size);
-  return number;
+  return number_of(error, error_size,
+                   [&](Ranks& all_of_them) { return all_of_them.make_pairs(rows, most); });
 }
 
 double plugin_project(int number, int pairs, float* r, float* along) {
@@ -145,10 +187,12 @@ void plugin_take_pair(int number, int pair, float* load, float* answer) {
 }
 
 const BuckensGridPlugin plugin = {
-    kBuckensGridVersion, plugin_name,        plugin_make,     plugin_solve,    plugin_bytes,
-    plugin_release,      plugin_join,        plugin_serve,    plugin_leave,    plugin_traffic,
-    plugin_divide,       plugin_divide_rows, plugin_multiply, plugin_gather,   plugin_forget,
-    plugin_make_pairs,   plugin_project,     plugin_combine,  plugin_put_pair, plugin_take_pair};
+    kBuckensGridVersion,  plugin_name,        plugin_make,         plugin_solve,   plugin_bytes,
+    plugin_release,       plugin_join,        plugin_serve,        plugin_leave,   plugin_traffic,
+    plugin_divide,        plugin_divide_rows, plugin_make_columns, plugin_add_up,  plugin_multiply,
+    plugin_inner_product, plugin_diagonal,    plugin_marks,        plugin_edges,   plugin_gather,
+    plugin_forget,        plugin_make_pairs,  plugin_project,      plugin_combine, plugin_put_pair,
+    plugin_take_pair};
 
 }  // namespace
 

@@ -78,7 +78,8 @@ Ranks::Order Ranks::wait_for_order() {
   }
 }
 
-void Ranks::serve() {
+void Ranks::serve(const BuckensGridMaker& maker) {
+  maker_ = maker;
   for (;;) {
     const Order order = wait_for_order();
     BuckensGridOutcome outcome{};
@@ -100,13 +101,15 @@ void Ranks::serve() {
         break;
       case Task::divide:
       case Task::divide_rows:
-        (void)divide_together(order, nullptr);
-        break;
+      case Task::make_columns:
+      case Task::add_up:
+      case Task::inner_product:
+      case Task::diagonal:
+      case Task::marks:
+      case Task::edges:
       case Task::multiply:
-        multiply_together(order, nullptr, nullptr);
-        break;
       case Task::gather:
-        gather_together(order, nullptr, nullptr, nullptr);
+        serve_matrices(order);
         break;
       case Task::forget:
         shared_->forget(order.number);
@@ -124,6 +127,40 @@ void Ranks::serve() {
         MPI_Finalize();
         return;
     }
+  }
+}
+
+/// Orders about matrices that the first process does not have.
+void Ranks::serve_matrices(const Order& order) {
+  BuckensGridFacts facts{};
+  switch (order.task) {
+    case Task::divide:
+    case Task::divide_rows:
+      (void)divide_together(order, nullptr, facts);
+      break;
+    case Task::make_columns:
+      (void)make_columns_together(order, nullptr, facts);
+      break;
+    case Task::add_up:
+      (void)add_up_together(order, nullptr, facts);
+      break;
+    case Task::inner_product:
+      (void)inner_product_together(order, nullptr, nullptr);
+      break;
+    case Task::diagonal:
+      diagonal_together(order, nullptr);
+      break;
+    case Task::marks:
+      (void)marks_together(order, nullptr);
+      break;
+    case Task::edges:
+      (void)edges_together(order, nullptr);
+      break;
+    case Task::multiply:
+      multiply_together(order, nullptr, nullptr);
+      break;
+    default:
+      gather_together(order, nullptr, nullptr, nullptr);
   }
 }
 

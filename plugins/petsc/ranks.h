@@ -26,7 +26,7 @@ class Ranks {
   int count() const { return count_; }
 
   /// Of the others: does what the first says until that leaves.
-  void serve();
+  void serve(const BuckensGridMaker& maker);
   /// Of the first: lets the others end, and ends MPI.
   void leave();
 
@@ -39,11 +39,22 @@ class Ranks {
   double bytes(int number);
   void release(int number);
   /// Of the first: gives a matrix to the others. @return its number, −1 as make()
-  int divide(int size, const BuckensGridColumns& all);
+  int divide(int size, const BuckensGridColumns& all, BuckensGridFacts& facts);
+  /// The same of one that the others make.
+  int make_columns(int size, const BuckensGridDescription& of, BuckensGridFacts& facts);
+  /// The same of a sum of such matrices.
+  int add_up(int count, const int* terms, const double* weights, BuckensGridFacts& facts);
   /// The same of a matrix of any shape, given by rows.
   int divide_rows(int rows, int columns, const BuckensGridColumns& all);
   /// y_k = A_k x_k
   void multiply(int count, const int* matrices, const double* const* x, double* const* y);
+  /// Of the first: see BuckensGridPlugin.
+  double inner_product(int count, const int* terms, const double* a, const double* b);
+  void diagonal(int matrix, double* values);
+  bool marks(int count, const int* terms, unsigned long long* marks);
+  /// @return pairs, which live until the next call; null after an error
+  const std::vector<int>* edges(int count, const int* terms, const int* vertex);
+  void forget_edges();
   void gather(int matrix, int* starts, int* rows, double* values);
   void forget(int matrix);
   /// Of the first: room for pairs of vectors of so many rows. @return its number, −1 as make()
@@ -77,8 +88,21 @@ class Ranks {
   bool make_together(const Order& order, const BuckensGridMatrix* matrix);
   bool factorise_together(const Order& order, const BuckensGridMatrix* matrix);
   void find_places(int size, Part& part);
-  bool sum_terms(const Order& order, const BuckensGridMatrix* matrix, OwnRows& own);
-  bool divide_together(const Order& order, const BuckensGridColumns* all);
+  bool sum_terms(const Order& order, const double* of_terms, OwnRows& own);
+  std::vector<const Divided*> terms_of(const Order& order) const;
+  std::unique_ptr<Divided> empty_division(const Order& order) const;
+  bool divide_together(const Order& order, const BuckensGridColumns* all, BuckensGridFacts& facts);
+  bool make_columns_together(const Order& order, const BuckensGridDescription* of,
+                             BuckensGridFacts& facts);
+  bool send_descriptions(const Divided& matrix, const BuckensGridDescription& of);
+  bool make_columns_of(const std::vector<char>& description, Divided& matrix);
+  bool add_up_together(const Order& order, const double* weights, BuckensGridFacts& facts);
+  bool keep(const Order& order, std::unique_ptr<Divided> matrix, BuckensGridFacts& facts);
+  void sum_facts(const Divided& matrix, BuckensGridFacts& facts);
+  double inner_product_together(const Order& order, const double* a, const double* b);
+  void diagonal_together(const Order& order, double* values);
+  bool marks_together(const Order& order, unsigned long long* marks);
+  bool edges_together(const Order& order, const int* vertex);
   void exchange_columns(const BuckensGridColumns* all, Divided& matrix);
   void exchange_lists(Divided& matrix);
   void multiply_together(const Order& order, const double* const* x, double* const* y);
@@ -91,6 +115,7 @@ class Ranks {
                               int* rows, double* values);
   void gather_together(const Order& order, int* starts, int* rows, double* values);
   bool solve_together(const Order& order, const double* b, double* x, BuckensGridOutcome& outcome);
+  void serve_matrices(const Order& order);
   void give_pairs(Task task, int number, int count);
   void serve_pairs(const Order& order);
   bool make_pairs_together(const Order& order);
@@ -106,6 +131,7 @@ class Ranks {
   MPI_Comm orders_ = MPI_COMM_NULL, work_ = MPI_COMM_NULL;
   int rank_ = 0, count_ = 1;
   int next_ = 0;
+  BuckensGridMaker maker_{};  // of the others
   BuckensGridTraffic traffic_{};
   std::unique_ptr<Shared> shared_;
 };

@@ -64,7 +64,7 @@ std::vector<T> sent_entries(const BuckensGridColumns& all, bool is_symmetric, in
 
 }  // namespace
 
-int Ranks::divide(int size, const BuckensGridColumns& all) {
+int Ranks::divide(int size, const BuckensGridColumns& all, BuckensGridFacts& facts) {
   if (!has_entries_of_both_triangles(size, all)) {
     set_reason("it has entries on one side of the diagonal that are not on the other");
     return -1;
@@ -74,7 +74,7 @@ int Ranks::divide(int size, const BuckensGridColumns& all) {
   order.number = next_++;
   order.size = size;
   give(order);
-  return divide_together(order, &all) ? order.number : -1;
+  return divide_together(order, &all, facts) ? order.number : -1;
 }
 
 int Ranks::divide_rows(int rows, int columns, const BuckensGridColumns& all) {
@@ -84,17 +84,25 @@ int Ranks::divide_rows(int rows, int columns, const BuckensGridColumns& all) {
   order.size = rows;
   order.columns = columns;
   give(order);
-  return divide_together(order, &all) ? order.number : -1;
+  BuckensGridFacts facts{};
+  return divide_together(order, &all, facts) ? order.number : -1;
 }
 
-bool Ranks::divide_together(const Order& order, const BuckensGridColumns* all) {
+std::unique_ptr<Ranks::Divided> Ranks::empty_division(const Order& order) const {
   auto matrix = std::make_unique<Divided>();
   matrix->size = order.size;
-  matrix->is_symmetric = order.task == Task::divide;
+  matrix->is_symmetric = order.task != Task::divide_rows;
   matrix->first = runs_of_others(order.size, count_);
   for (int k = 0; k < count_; ++k) {
     matrix->counts.push_back(matrix->first[k + 1] - matrix->first[k]);
   }
+  matrix->starts = {0};
+  return matrix;
+}
+
+bool Ranks::divide_together(const Order& order, const BuckensGridColumns* all,
+                            BuckensGridFacts& facts) {
+  std::unique_ptr<Divided> matrix = empty_division(order);
   std::vector<int> entries(static_cast<std::size_t>(count_), 0);
   for (int k = 0; k < count_ && all != nullptr; ++k) {
     visit_sent(*all, matrix->is_symmetric, matrix->first[k], matrix->first[k + 1],
@@ -110,6 +118,12 @@ bool Ranks::divide_together(const Order& order, const BuckensGridColumns* all) {
   });
   if (has_failed_somewhere(!has_room)) return false;
   exchange_columns(all, *matrix);
+  return keep(order, std::move(matrix), facts);
+}
+
+/// Of a matrix whose rows are numbers of variables: what all know of it, and their places.
+bool Ranks::keep(const Order& order, std::unique_ptr<Divided> matrix, BuckensGridFacts& facts) {
+  if (matrix->is_symmetric) sum_facts(*matrix, facts);
   const bool is_listed = has_memory_for([&] {
     const bool lists_own = matrix->is_symmetric;
     list_rows(lists_own ? order.size : order.columns, lists_own ? matrix->first[rank_] : 0,

@@ -123,7 +123,7 @@ bool Ranks::factorise_together(const Order& order, const BuckensGridMatrix* matr
     const Divided& term = *shared_->matrices.at(order.of.front());
     part->first = term.first;
     part->counts = term.counts;
-    is_complete = sum_terms(order, matrix, own);
+    is_complete = sum_terms(order, matrix != nullptr ? matrix->weights : nullptr, own);
   } else {
     is_complete = matrix != nullptr ? send_rows(*part, *matrix, own)
                                     : receive_rows(part->counts[rank_], 0, own);

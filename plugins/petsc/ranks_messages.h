@@ -16,6 +16,8 @@ constexpr int kDataTag = 1;
 
 inline MPI_Datatype type_of(const int*) { return MPI_INT; }
 inline MPI_Datatype type_of(const double*) { return MPI_DOUBLE; }
+inline MPI_Datatype type_of(const long*) { return MPI_LONG; }
+inline MPI_Datatype type_of(const char*) { return MPI_BYTE; }
 
 /// To a process that calls receive() with as many.
 template <class T>

@@ -22,6 +22,12 @@ enum class Task : int {
   release,
   divide,
   divide_rows,
+  make_columns,
+  add_up,
+  inner_product,
+  diagonal,
+  marks,
+  edges,
   multiply,
   gather,
   forget,
@@ -85,6 +91,8 @@ struct Ranks::Divided {
   // Of the first process: `variables` of all, one process after the other.
   std::vector<int> lists, list_first, list_counts;
 
+  /// Columns here.
+  int count() const { return static_cast<int>(starts.size()) - 1; }
   /// Numbers that a process adds to a product.
   std::size_t num_results(int rank) const {
     return is_symmetric ? variables.size() : static_cast<std::size_t>(counts[rank]);
@@ -114,6 +122,7 @@ struct Ranks::Shared {
     pairs.erase(number);
   }
   std::vector<double> sent, received;  // by products
+  std::vector<int> edges;
 };
 
 /// Rows of a symmetric matrix, which are its columns.

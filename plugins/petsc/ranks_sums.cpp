@@ -1,51 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums of matrices that the first process has given away.
+// Sums of matrices that the other processes have.
 #include <vector>
 
 #include "ranks_messages.h"
 #include "ranks_parts.h"
+#include "ranks_terms.h"
 
 namespace buckens_petsc {
 
-namespace {
-
-/// Calls visit(row, value) for the entries of a column of a sum from the diagonal on, rows
-/// ascending, terms added in their order.
-template <class Matrix, class Visitor>
-void visit_column(const std::vector<const Matrix*>& terms, const double* weights, int column,
-                  int least_row, std::vector<int>& at, Visitor&& visit) {
-  const auto row_of = [&](std::size_t t) {
-    return terms[t]->variables[static_cast<std::size_t>(terms[t]->rows[at[t]])];
-  };
-  const auto is_left = [&](std::size_t t) { return at[t] < terms[t]->starts[column + 1]; };
-  for (std::size_t t = 0; t < terms.size(); ++t) {
-    at[t] = terms[t]->starts[column];
-    while (is_left(t) && row_of(t) < least_row) ++at[t];
+std::vector<const Ranks::Divided*> Ranks::terms_of(const Order& order) const {
+  std::vector<const Divided*> out;
+  for (int k = 0; k < order.num_matrices(); ++k) {
+    out.push_back(shared_->matrices.at(order.of[static_cast<std::size_t>(k)]).get());
   }
-  for (;;) {
-    int row = -1;
-    for (std::size_t t = 0; t < terms.size(); ++t) {
-      if (is_left(t) && (row < 0 || row_of(t) < row)) row = row_of(t);
-    }
-    if (row < 0) return;
-    double value = 0;
-    for (std::size_t t = 0; t < terms.size(); ++t) {
-      if (is_left(t) && row_of(t) == row) value += weights[t] * terms[t]->values[at[t]++];
-    }
-    visit(row, value);
-  }
+  return out;
 }
 
-}  // namespace
-
 /// Each process forms its columns of the lower triangle of a sum of divided matrices.
-bool Ranks::sum_terms(const Order& order, const BuckensGridMatrix* matrix, OwnRows& own) {
-  std::vector<const Divided*> terms;
-  for (int k = 0; k < order.num_matrices(); ++k) {
-    terms.push_back(shared_->matrices.at(order.of[static_cast<std::size_t>(k)]).get());
-  }
+bool Ranks::sum_terms(const Order& order, const double* of_terms, OwnRows& own) {
+  const std::vector<const Divided*> terms = terms_of(order);
   std::vector<double> weights(terms.size());
-  if (matrix != nullptr) weights.assign(matrix->weights, matrix->weights + terms.size());
+  if (of_terms != nullptr) weights.assign(of_terms, of_terms + terms.size());
   MPI_Bcast(weights.data(), static_cast<int>(weights.size()), MPI_DOUBLE, 0, work_);
   count_messages(count_ - 1, sizeof(double) * static_cast<double>(weights.size()));
   const int first = terms.front()->first[rank_];
@@ -53,24 +28,80 @@ bool Ranks::sum_terms(const Order& order, const BuckensGridMatrix* matrix, OwnRo
   return has_memory_for([&] {
     std::vector<int> at(terms.size());
     const auto visit = [&](int column, auto&& visitor) {
-      visit_column(terms, weights.data(), column, first + column, at, visitor);
+      visit_column(terms, column, first + column, at, visitor);
     };
     own.starts.assign(static_cast<std::size_t>(count) + 1, 0);
     for (int column = 0; column < count; ++column) {
       int& end = own.starts[static_cast<std::size_t>(column) + 1];
       end = own.starts[static_cast<std::size_t>(column)];
-      visit(column, [&end](int, double) { ++end; });
+      visit(column, [&end](int, const TermValues&) { ++end; });
     }
     own.rows.reserve(static_cast<std::size_t>(own.starts.back()));
     own.values.reserve(own.rows.capacity());
     for (int column = 0; column < count; ++column) {
-      visit(column, [&own](int row, double value) {
+      visit(column, [&](int row, const TermValues& values) {
         own.rows.push_back(row);
-        own.values.push_back(value);
+        own.values.push_back(weighted(values, weights));
       });
     }
     own.columns = {own.starts.data(), own.rows.data(), own.values.data()};
   });
+}
+
+int Ranks::add_up(int count, const int* terms, const double* weights, BuckensGridFacts& facts) {
+  Order order;
+  order.task = Task::add_up;
+  order.number = next_++;
+  order.size = shared_->matrices.at(terms[0])->size;
+  order.set_matrices(terms, count);
+  give(order);
+  return add_up_together(order, weights, facts) ? order.number : -1;
+}
+
+bool Ranks::add_up_together(const Order& order, const double* weights, BuckensGridFacts& facts) {
+  std::unique_ptr<Divided> matrix = empty_division(order);
+  OwnRows own;
+  if (has_failed_somewhere(!sum_terms(order, weights, own))) return false;
+  matrix->starts.swap(own.starts);
+  matrix->rows.swap(own.rows);
+  matrix->values.swap(own.values);
+  return keep(order, std::move(matrix), facts);
+}
+
+double Ranks::inner_product(int count, const int* terms, const double* a, const double* b) {
+  Order order;
+  order.task = Task::inner_product;
+  order.set_matrices(terms, count);
+  give(order);
+  return inner_product_together(order, a, b);
+}
+
+/// Entries below the diagonal are there for two.
+double Ranks::inner_product_together(const Order& order, const double* a, const double* b) {
+  const std::vector<const Divided*> terms = terms_of(order);
+  std::vector<double> of_a(terms.size()), of_b(terms.size());
+  if (a != nullptr) of_a.assign(a, a + terms.size());
+  if (b != nullptr) of_b.assign(b, b + terms.size());
+  MPI_Bcast(of_a.data(), static_cast<int>(of_a.size()), MPI_DOUBLE, 0, work_);
+  MPI_Bcast(of_b.data(), static_cast<int>(of_b.size()), MPI_DOUBLE, 0, work_);
+  const int first = terms.front()->first[rank_];
+  double sum = 0;
+  std::vector<int> at(terms.size());
+  for (int k = 0; k < terms.front()->count(); ++k) {
+    double of_column = 0;
+    visit_column(terms, k, first + k, at, [&](int row, const TermValues& values) {
+      const double product = weighted(values, of_a) * weighted(values, of_b);
+      of_column += row == first + k ? product : 2 * product;
+    });
+    sum += of_column;
+  }
+  std::vector<double> all(static_cast<std::size_t>(count_));
+  MPI_Gather(&sum, 1, MPI_DOUBLE, all.data(), 1, MPI_DOUBLE, 0, work_);
+  count_messages(3 * (count_ - 1), 0);
+  traffic_.bytes += sizeof(double) * (count_ - 1) * static_cast<double>(2 * terms.size() + 1);
+  double total = 0;  // in the order of the processes
+  for (const double share : all) total += share;
+  return total;
 }
 
 }  // namespace buckens_petsc

@@ -11,6 +11,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/body/rigid_modes.h"
 #include "buckens/linalg/conjugate_gradients.h"
+#include "buckens/linalg/matrix_sum.h"
 
 namespace buckens::body {
 
@@ -30,7 +31,11 @@ Sieve make_sieve(const std::string& body, const fem::FeModel& fe) {
   return Sieve(Phi, fe.M);
 }
 
-linalg::SparseMatrix damping_matrix(const fem::FeModel& fe) {
+linalg::SymmetricMatrix damping_matrix(const fem::FeModel& fe) {
+  linalg::MatrixSum sum;
+  if (fe.mass_damping > 0.0) sum.add(fe.mass_damping, fe.M);
+  if (fe.K_damping.nonZeros() > 0) sum.add(1.0, fe.K_damping);
+  if (sum.size() > 0 && sum.is_divided()) return sum.divided();
   linalg::SparseMatrix C(fe.M.rows(), fe.M.cols());
   if (fe.mass_damping > 0.0) C = fe.mass_damping * fe.M.whole();
   if (fe.K_damping.nonZeros() > 0) C += fe.K_damping.whole();

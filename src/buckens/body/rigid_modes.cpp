@@ -58,7 +58,7 @@ Matrix rigid_modes(const std::vector<Vector3d>& node_positions, const fem::DofMa
   return Phi;
 }
 
-void check_stiffness_is_free(const std::string& body, const linalg::SparseMatrix& K,
+void check_stiffness_is_free(const std::string& body, const linalg::SymmetricMatrix& K,
                              const Matrix& Phi, const fem::FeModel& fe) {
   static const std::array<const char*, 6> names = {
       "translation x", "translation y", "translation z", "rotation x", "rotation y", "rotation z"};

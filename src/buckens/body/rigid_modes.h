@@ -23,7 +23,7 @@ linalg::Matrix rigid_modes(const std::vector<Eigen::Vector3d>& node_positions,
 /// Tolerance: |KΦ| ≤ 1e-9 |K| |Φ| column by column, far above rounding (about 1e-14 for sensible
 /// meshes) and far below any spring to ground.
 /// @throws ModelError naming the body, the rigid mode and the node where the residual is largest
-void check_stiffness_is_free(const std::string& body, const linalg::SparseMatrix& K,
+void check_stiffness_is_free(const std::string& body, const linalg::SymmetricMatrix& K,
                              const linalg::Matrix& Phi, const fem::FeModel& fe);
 
 }  // namespace buckens::body

@@ -8,7 +8,6 @@
 namespace buckens::body {
 
 using linalg::Matrix;
-using linalg::SparseMatrix;
 using linalg::Vector;
 
 namespace {
@@ -18,8 +17,12 @@ constexpr double kEmptyRow = 1e-12;
 using Amplitudes = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 }  // namespace
 
-Sieve::Sieve(const Matrix& Phi, const SparseMatrix& M) {
-  S_ = Phi.transpose() * (M * Phi);
+Sieve::Sieve(const Matrix& Phi, const linalg::SymmetricMatrix& M) {
+  if (M.is_divided()) {
+    S_ = Phi.transpose() * (M * Phi);
+  } else {  // Eigen adds up in another order if M Φ is not a part of the expression
+    S_ = Phi.transpose() * (M.whole() * Phi);
+  }
   S_ = 0.5 * (S_ + S_.transpose().eval());
   Eigen::Matrix<double, 6, 1> scale = Eigen::Matrix<double, 6, 1>::Zero();
   const double translation = S_.diagonal().head<3>().maxCoeff();

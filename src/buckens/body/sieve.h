@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/symmetric_matrix.h"
 
 namespace buckens::body {
 
@@ -21,7 +21,7 @@ class Sieve {
  public:
   /// @param Phi rigid modes, n×6, zero columns allowed
   /// @param M mass matrix, n×n
-  Sieve(const linalg::Matrix& Phi, const linalg::SparseMatrix& M);
+  Sieve(const linalg::Matrix& Phi, const linalg::SymmetricMatrix& M);
 
   /// d ← Y d.
   void apply(linalg::Vector& d) const;

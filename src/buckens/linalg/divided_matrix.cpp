@@ -2,7 +2,9 @@
 #include "buckens/linalg/divided_matrix.h"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
+#include <new>
 
 #include <fmt/format.h>
 
@@ -12,18 +14,85 @@
 
 namespace buckens::linalg {
 
-DividedMatrix::DividedMatrix(const SparseMatrix& A, std::array<std::uint64_t, 2> content)
-    : entries_(A.nonZeros()), diagonal_(A.diagonal()), content_(content) {
-  const BuckensGridColumns columns{A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr()};
+namespace {
+
+std::vector<int> numbers_of(std::span<const DividedMatrix* const> terms) {
+  std::vector<int> out;
+  for (const DividedMatrix* term : terms) out.push_back(term->number());
+  return out;
+}
+
+/// What is asked of the plug-in, and what helps where that fails.
+struct Wish {
+  const char *verb, *remedy;
+};
+constexpr const char* kMoreMemory = "use more memory, or fewer processes on a machine";
+
+/// Asks the plug-in for a matrix, and for its diagonal.
+/// @param ask (plug-in, facts, error, its size) → number
+template <class Ask>
+int ask_for_matrix(Eigen::Index size, const Wish& wish, Vector& diagonal, BuckensGridFacts& facts,
+                   Ask&& ask) {
   std::array<char, 400> error{};
+  const BuckensGridPlugin& plugin = grid_solver();
   const std::scoped_lock lock(turn_of_grid_solver());
-  number_ = grid_solver().divide(static_cast<int>(A.cols()), &columns, error.data(),
-                                 static_cast<int>(error.size()));
-  if (number_ >= 0) return;
-  throw NumericalError(
-      fmt::format("a matrix of {} equations on {} processes could not be divided: {}; use more "
-                  "memory, or fewer processes on a machine",
-                  A.cols(), Ranks::count(), error.data()));
+  const int number = ask(plugin, &facts, error.data(), static_cast<int>(error.size()));
+  if (number < 0) {
+    throw NumericalError(
+        fmt::format("a matrix of {} equations on {} processes could not be {}: {}; {}", size,
+                    Ranks::count(), wish.verb, error.data(), wish.remedy));
+  }
+  diagonal.resize(size);
+  plugin.diagonal(number, diagonal.data());
+  return number;
+}
+
+/// Gives the plug-in what its processes make columns of.
+struct Descriptions {
+  const DividedMatrix::Describe* of;
+  std::vector<std::byte> last;
+
+  static int give(void* source, int first, int end, const void** bytes, long* count) try {
+    auto& own = *static_cast<Descriptions*>(source);
+    own.last = {};
+    own.last = (*own.of)(first, end);
+    *bytes = own.last.data();
+    *count = static_cast<long>(own.last.size());
+    return 0;
+  } catch (const std::bad_alloc&) {
+    return 1;  // the plug-in says so to all processes
+  }
+};
+
+}  // namespace
+
+DividedMatrix::DividedMatrix(const SparseMatrix& A) {
+  const BuckensGridColumns columns{A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr()};
+  number_ = ask_for_matrix(A.cols(), {"divided", kMoreMemory}, diagonal_, facts_,
+                           [&](const auto& plugin, auto* facts, char* error, int size) {
+                             return plugin.divide(static_cast<int>(A.cols()), &columns, facts,
+                                                  error, size);
+                           });
+}
+
+DividedMatrix::DividedMatrix(Eigen::Index size, const Describe& describe) {
+  Descriptions own{&describe, {}};
+  const BuckensGridDescription of{Descriptions::give, &own};
+  number_ = ask_for_matrix(size, {"made", "check the mesh, or use more memory"}, diagonal_, facts_,
+                           [&](const auto& plugin, auto* facts, char* error, int error_size) {
+                             return plugin.make_columns(static_cast<int>(size), &of, facts, error,
+                                                        error_size);
+                           });
+}
+
+DividedMatrix::DividedMatrix(std::span<const DividedMatrix* const> terms,
+                             std::span<const double> weights) {
+  const std::vector<int> numbers = numbers_of(terms);
+  number_ = ask_for_matrix(terms.front()->size(), {"added up", kMoreMemory}, diagonal_, facts_,
+                           [&](const auto& plugin, auto* facts, char* error, int size) {
+                             return plugin.add_up(static_cast<int>(numbers.size()), numbers.data(),
+                                                  weights.data(), facts, error, size);
+                           });
 }
 
 DividedMatrix::~DividedMatrix() {
@@ -50,12 +119,22 @@ void DividedMatrix::multiply(std::span<const Product> products) {
   }
 }
 
+double DividedMatrix::inner_product(std::span<const DividedMatrix* const> terms,
+                                    std::span<const double> a, std::span<const double> b) {
+  const std::vector<int> numbers = numbers_of(terms);
+  const std::scoped_lock lock(turn_of_grid_solver());
+  return grid_solver().inner_product(static_cast<int>(numbers.size()), numbers.data(), a.data(),
+                                     b.data());
+}
+
 SparseMatrix DividedMatrix::gathered() const {
-  SparseMatrix out(diagonal_.size(), diagonal_.size());
-  out.resizeNonZeros(entries_);
+  SparseMatrix out(size(), size());
+  out.resizeNonZeros(entries());
   const std::scoped_lock lock(turn_of_grid_solver());
   grid_solver().gather(number_, out.outerIndexPtr(), out.innerIndexPtr(), out.valuePtr());
   return out;
 }
+
+double DividedMatrix::norm() const { return std::sqrt(facts_.square_norm); }
 
 }  // namespace buckens::linalg

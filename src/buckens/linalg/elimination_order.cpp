@@ -38,28 +38,58 @@ std::uint64_t fingerprint(std::span<const int> rows) {
   return sum;
 }
 
-/// Vertex of each column; vertices are numbered by their first columns.
-std::vector<int> gather_columns(const SparseMatrix& A) {
-  const int n = static_cast<int>(A.cols());
-  std::vector<std::pair<std::uint64_t, int>> marks(static_cast<std::size_t>(n));
-  for (int c = 0; c < n; ++c) marks[static_cast<std::size_t>(c)] = {fingerprint(rows_of(A, c)), c};
-  std::sort(marks.begin(), marks.end());
-  std::vector<int> leader(static_cast<std::size_t>(n));  // first column with the same rows
-  for (std::size_t k = 0; k < marks.size(); ++k) {
-    const auto [mark, column] = marks[k];
+/// Vertex of each column. @param marks of the columns @param are_equal whether two columns with the
+/// same mark are one vertex
+template <class Equal>
+std::vector<int> gather_columns(const std::vector<std::uint64_t>& marks, Equal&& are_equal) {
+  std::vector<std::pair<std::uint64_t, int>> sorted(marks.size());
+  for (std::size_t c = 0; c < marks.size(); ++c) sorted[c] = {marks[c], static_cast<int>(c)};
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<int> leader(marks.size());  // first column with the same rows
+  for (std::size_t k = 0; k < sorted.size(); ++k) {
+    const auto [mark, column] = sorted[k];
     int& mine = leader[static_cast<std::size_t>(column)];
     mine = column;
-    if (k == 0 || marks[k - 1].first != mark) continue;
-    const int before = leader[static_cast<std::size_t>(marks[k - 1].second)];
-    if (std::ranges::equal(rows_of(A, before), rows_of(A, column))) mine = before;
+    if (k == 0 || sorted[k - 1].first != mark) continue;
+    const int before = leader[static_cast<std::size_t>(sorted[k - 1].second)];
+    if (are_equal(before, column)) mine = before;
   }
-  std::vector<int> vertex(static_cast<std::size_t>(n));
+  std::vector<int> vertex(marks.size());
   int count = 0;
   for (std::size_t c = 0; c < vertex.size(); ++c) {
     const auto first = static_cast<std::size_t>(leader[c]);
     vertex[c] = first == c ? count++ : vertex[first];
   }
   return vertex;
+}
+
+/// The columns of each vertex.
+ColumnGraph with_columns(const std::vector<int>& vertex) {
+  ColumnGraph graph;
+  const int count = vertex.empty() ? 0 : *std::max_element(vertex.begin(), vertex.end()) + 1;
+  graph.first_column.assign(static_cast<std::size_t>(count) + 1, 0);
+  for (const int v : vertex) ++graph.first_column[static_cast<std::size_t>(v) + 1];
+  std::partial_sum(graph.first_column.begin(), graph.first_column.end(),
+                   graph.first_column.begin());
+  graph.columns.resize(vertex.size());
+  std::vector<int> next(graph.first_column.begin(), graph.first_column.end() - 1);
+  for (std::size_t c = 0; c < vertex.size(); ++c) {
+    int& place = next[static_cast<std::size_t>(vertex[c])];
+    graph.columns[static_cast<std::size_t>(place++)] = static_cast<int>(c);
+  }
+  return graph;
+}
+
+/// @param lists neighbours of each vertex, some more than once; emptied
+void set_neighbours(std::vector<std::vector<int>>& lists, ColumnGraph& graph) {
+  graph.begin.push_back(0);
+  for (std::vector<int>& list : lists) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    graph.neighbours.insert(graph.neighbours.end(), list.begin(), list.end());
+    graph.begin.push_back(static_cast<int>(graph.neighbours.size()));
+    std::vector<int>().swap(list);
+  }
 }
 
 /// Neighbours by the rows of the first column of each vertex.
@@ -83,14 +113,7 @@ void list_neighbours(const SparseMatrix& A, const std::vector<int>& vertex, Colu
       others[static_cast<std::size_t>(w)].push_back(static_cast<int>(v));
     });
   }
-  graph.begin.push_back(0);
-  for (std::vector<int>& list : others) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-    graph.neighbours.insert(graph.neighbours.end(), list.begin(), list.end());
-    graph.begin.push_back(static_cast<int>(graph.neighbours.size()));
-    std::vector<int>().swap(list);
-  }
+  set_neighbours(others, graph);
 }
 
 std::vector<int> by_least_degree(const ColumnGraph& graph) {
@@ -124,20 +147,29 @@ std::vector<int> by_nested_dissection(const ColumnGraph& graph) {
 }  // namespace
 
 ColumnGraph column_graph(const SparseMatrix& A) {
-  ColumnGraph graph;
-  const std::vector<int> vertex = gather_columns(A);
-  const int count = vertex.empty() ? 0 : *std::max_element(vertex.begin(), vertex.end()) + 1;
-  graph.first_column.assign(static_cast<std::size_t>(count) + 1, 0);
-  for (const int v : vertex) ++graph.first_column[static_cast<std::size_t>(v) + 1];
-  std::partial_sum(graph.first_column.begin(), graph.first_column.end(),
-                   graph.first_column.begin());
-  graph.columns.resize(vertex.size());
-  std::vector<int> next(graph.first_column.begin(), graph.first_column.end() - 1);
-  for (std::size_t c = 0; c < vertex.size(); ++c) {
-    int& place = next[static_cast<std::size_t>(vertex[c])];
-    graph.columns[static_cast<std::size_t>(place++)] = static_cast<int>(c);
+  std::vector<std::uint64_t> marks(static_cast<std::size_t>(A.cols()));
+  for (std::size_t c = 0; c < marks.size(); ++c) {
+    marks[c] = fingerprint(rows_of(A, static_cast<int>(c)));
   }
+  const std::vector<int> vertex = gather_columns(
+      marks, [&A](int a, int b) { return std::ranges::equal(rows_of(A, a), rows_of(A, b)); });
+  ColumnGraph graph = with_columns(vertex);
   list_neighbours(A, vertex, graph);
+  return graph;
+}
+
+std::vector<int> vertices_of(const std::vector<std::uint64_t>& marks) {
+  return gather_columns(marks, [](int, int) { return true; });
+}
+
+ColumnGraph graph_of(const std::vector<int>& vertex, std::span<const int> edges) {
+  ColumnGraph graph = with_columns(vertex);
+  std::vector<std::vector<int>> others(graph.first_column.size() - 1);
+  for (std::size_t k = 0; k + 1 < edges.size(); k += 2) {
+    others[static_cast<std::size_t>(edges[k])].push_back(edges[k + 1]);
+    others[static_cast<std::size_t>(edges[k + 1])].push_back(edges[k]);
+  }
+  set_neighbours(others, graph);
   return graph;
 }
 

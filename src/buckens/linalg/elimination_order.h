@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "buckens/linalg/matrix_types.h"
@@ -24,6 +26,12 @@ struct ColumnGraph {
 
 /// @param A square; an entry counts for both triangles
 ColumnGraph column_graph(const SparseMatrix& A);
+
+/// Vertex of each column, those with the same mark being one; vertices are numbered by their first
+/// columns.
+std::vector<int> vertices_of(const std::vector<std::uint64_t>& marks);
+/// @param vertex of each column @param edges pairs of vertices, each in any order and at least once
+ColumnGraph graph_of(const std::vector<int>& vertex, std::span<const int> edges);
 
 /// Order of elimination with little fill: nested dissection (METIS) for large matrices, least
 /// degree (AMD) for small ones. The same graph always gets the same order.

@@ -17,14 +17,14 @@ IndefiniteMatrix::IndefiniteMatrix(Eigen::Index size, Eigen::Index column)
           size, column)),
       column_(column) {}
 
-void require_finite(const SparseMatrix& A) {
+void require_finite(const SparseMatrix& A, int first_column) {
   for (int column = 0; column < A.outerSize(); ++column) {
     for (SparseMatrix::InnerIterator it(A, column); it; ++it) {
       if (std::isfinite(it.value())) continue;
       throw NumericalError(fmt::format(
           "a matrix of size {} has an entry that is not finite (row {}, column {}: {}); check "
           "masses, materials, sections and the step",
-          A.rows(), it.row(), column, it.value()));
+          A.rows(), it.row(), first_column + column, it.value()));
     }
   }
 }

@@ -7,7 +7,7 @@
 extern "C" {
 
 /// Rises with every change of what stands here.
-enum { kBuckensGridVersion = 6 };
+enum { kBuckensGridVersion = 7 };
 
 /// Products that one order may ask for.
 enum { kBuckensMostProducts = 8 };
@@ -64,6 +64,32 @@ struct BuckensGridTraffic {
   double bytes;
 };
 
+/// What there is to know of a divided symmetric matrix without its entries.
+struct BuckensGridFacts {
+  long entries;        ///< of both triangles
+  double square_norm;  ///< the sum of the squares of all entries
+  unsigned long long content[2];
+};
+
+/// Says what columns `first` to `end` - 1 of a matrix are made of, in bytes that live until the
+/// next call. @return not zero if memory is too small
+struct BuckensGridDescription {
+  int (*describe)(void* source, int first, int end, const void** bytes, long* count);
+  void* source;
+};
+
+/// What the program does in the processes other than the first.
+struct BuckensGridMaker {
+  /// Columns `first` to `end` - 1 of a symmetric matrix from the diagonal on, of what describe()
+  /// says; they live until the next call. Null for them gives the memory back.
+  int (*make)(const void* bytes, long count, int first, int end, BuckensGridColumns* columns,
+              char* error, int error_size);
+  /// Adds a number for these columns, from the diagonal on, to `content`. The order of sums does
+  /// not count.
+  void (*add_content)(int first, int end, const BuckensGridColumns* columns,
+                      unsigned long long* content);
+};
+
 /// Functions that fail return null or not zero and write why into `error`.
 struct BuckensGridPlugin {
   int version;
@@ -79,20 +105,38 @@ struct BuckensGridPlugin {
   /// by all.
   void (*join)(int* rank, int* count);
   /// Of all processes but the first: takes part in its solves, until it leaves.
-  void (*serve)();
+  void (*serve)(const BuckensGridMaker* maker);
   /// Of the first: ends the others and MPI, when no solver is left.
   void (*leave)();
   /// Of the first: zeros where nothing is shared.
   void (*traffic)(BuckensGridTraffic* traffic);
   /// Of the first: gives all columns of a symmetric matrix to the other processes, which multiply
   /// by them from then on. Only where there are others. @return its number, -1 after an error
-  int (*divide)(int size, const BuckensGridColumns* all, char* error, int error_size);
+  int (*divide)(int size, const BuckensGridColumns* all, BuckensGridFacts* facts, char* error,
+                int error_size);
   /// The same of a matrix of any shape: `all` are its rows, with columns in place of `rows`. It
   /// cannot be gathered, nor be a term of a sum.
   int (*divide_rows)(int rows, int columns, const BuckensGridColumns* all, char* error,
                      int error_size);
+  /// As divide(), of a symmetric matrix whose columns the other processes make.
+  int (*make_columns)(int size, const BuckensGridDescription* of, BuckensGridFacts* facts,
+                      char* error, int error_size);
+  /// As divide(), of a sum of divided matrices.
+  int (*add_up)(int count, const int* terms, const double* weights, BuckensGridFacts* facts,
+                char* error, int error_size);
   /// y_k = A_k x_k of divided matrices by one order, at most kBuckensMostProducts.
   void (*multiply)(int count, const int* matrices, const double* const* x, double* const* y);
+  /// The sum of the products of all entries of two sums of divided matrices.
+  double (*inner_product)(int count, const int* terms, const double* a, const double* b);
+  void (*diagonal)(int matrix, double* values);
+  /// A number for the rows that have an entry, of each column of a sum of divided matrices: the
+  /// same for columns with the same rows, and hardly ever otherwise.
+  int (*marks)(int count, const int* terms, unsigned long long* marks, char* error, int error_size);
+  /// Of such a sum the pairs of different vertices that an entry joins, given the vertex of each
+  /// column; each at least once. They live until the next call, and null for them gives the memory
+  /// back.
+  int (*edges)(int count, const int* terms, const int* vertex, long* num_edges, const int** pairs,
+               char* error, int error_size);
   /// Brings all columns back into arrays of their length; the processes keep theirs.
   void (*gather)(int matrix, int* starts, int* rows, double* values);
   /// The others give the memory of a divided matrix, or of pairs, back.

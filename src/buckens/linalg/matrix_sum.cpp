@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "buckens/linalg/divided_matrix.h"
 #include "buckens/linalg/finite_matrix.h"
 
 namespace buckens::linalg {
@@ -19,6 +20,36 @@ Index MatrixSum::size() const {
 bool MatrixSum::is_divisible() const {
   return std::all_of(terms_.begin(), terms_.end(),
                      [](const Term& term) { return term.symmetric != nullptr; });
+}
+
+bool MatrixSum::is_divided() const {
+  return std::all_of(terms_.begin(), terms_.end(), [](const Term& term) {
+    return term.symmetric != nullptr && term.symmetric->is_divided();
+  });
+}
+
+std::vector<const DividedMatrix*> MatrixSum::divide() const {
+  std::vector<const DividedMatrix*> out;
+  for (const Term& term : terms_) out.push_back(&term.symmetric->divide());
+  return out;
+}
+
+SymmetricMatrix MatrixSum::divided() const {
+  std::vector<double> weights;
+  for (const Term& term : terms_) weights.push_back(term.weight);
+  return SymmetricMatrix(std::make_shared<const DividedMatrix>(divide(), weights));
+}
+
+double inner_product(const MatrixSum& A, const MatrixSum& B) {
+  std::vector<const DividedMatrix*> terms = A.divide();
+  std::vector<double> a, b(terms.size(), 0.0);
+  for (const MatrixSum::Term& term : A.terms()) a.push_back(term.weight);
+  for (const MatrixSum::Term& term : B.terms()) {
+    terms.push_back(&term.symmetric->divide());
+    a.push_back(0.0);
+    b.push_back(term.weight);
+  }
+  return DividedMatrix::inner_product(terms, a, b);
 }
 
 template <class Visitor>

@@ -42,6 +42,12 @@ class MatrixSum {
   const std::vector<Term>& terms() const { return terms_; }
   /// Whether all terms can be divided.
   bool is_divisible() const;
+  /// Whether other processes have the rows of all terms.
+  bool is_divided() const;
+  /// All terms, which are divided from then on. @pre is_divisible()
+  std::vector<const DividedMatrix*> divide() const;
+  /// The sum itself, which the processes that have its terms form. @pre is_divided()
+  SymmetricMatrix divided() const;
 
  private:
   /// Calls visit(row, value) for the entries of a column from a row on, rows ascending.
@@ -50,5 +56,8 @@ class MatrixSum {
 
   std::vector<Term> terms_;
 };
+
+/// The sum of the products of all entries of A and B, entry by entry. @pre is_divided() of both
+double inner_product(const MatrixSum& A, const MatrixSum& B);
 
 }  // namespace buckens::linalg

@@ -14,8 +14,8 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/base/free_memory.h"
-#include "buckens/linalg/divided_matrix.h"
-#include "buckens/linalg/elimination_order.h"
+#include "buckens/linalg/column_maker.h"
+#include "buckens/linalg/divided_graph.h"
 #include "buckens/linalg/factor_work.h"
 #include "buckens/linalg/grid_library.h"
 #include "buckens/linalg/single_thread.h"
@@ -36,9 +36,7 @@ std::optional<int> number_in_environment(const char* name) {
 }
 
 /// The variable at each place of the order of the factor of one process.
-std::vector<int> places_in_factor(const MatrixSum& A) {
-  const SparseMatrix* pattern = A.widest();
-  const ColumnGraph graph = column_graph(pattern != nullptr ? *pattern : A.whole());
+std::vector<int> places_in_factor(const ColumnGraph& graph) {
   std::vector<int> out;
   out.reserve(graph.columns.size());
   for (const int vertex : elimination_order(graph)) {
@@ -54,22 +52,26 @@ class SharedFactor final : public Factor {
   explicit SharedFactor(const MatrixSum& A) : size_(A.size()), plugin_(grid_solver()) {
     A.require_finite();
     FactorWork work(size_);
-    const std::vector<int> order = places_in_factor(A);
     ColumnSource columns(A, Triangles::lower);
     std::vector<int> terms;
     std::vector<double> weights;
     BuckensGridMatrix matrix{};
     matrix.size = static_cast<int>(size_);
+    std::vector<int> order;
     if (A.is_divisible()) {
-      for (const MatrixSum::Term& term : A.terms()) {
-        terms.push_back(term.symmetric->divide().number());
-        weights.push_back(term.weight);
+      const std::vector<const DividedMatrix*> divided = A.divide();
+      for (std::size_t k = 0; k < divided.size(); ++k) {
+        terms.push_back(divided[k]->number());
+        weights.push_back(A.terms()[k].weight);
       }
+      order = places_in_factor(column_graph(divided));
       base::return_free_memory();
       matrix.terms = terms.data();
       matrix.weights = weights.data();
       matrix.num_terms = static_cast<int>(terms.size());
     } else {
+      const SparseMatrix* pattern = A.widest();
+      order = places_in_factor(column_graph(pattern != nullptr ? *pattern : A.whole()));
       matrix.give = ColumnSource::give;
       matrix.source = &columns;
     }
@@ -161,9 +163,10 @@ Ranks::~Ranks() {
   count_of_ranks = 1;
 }
 
-void Ranks::serve() {
+void Ranks::serve(MakeColumns make) {
   const SingleThread single;
-  grid_solver().serve();
+  const BuckensGridMaker maker = column_maker(make);
+  grid_solver().serve(&maker);
 }
 
 int Ranks::count() { return count_of_ranks; }
@@ -193,7 +196,7 @@ std::shared_ptr<const Factor> make_large_factor_of(const MatrixSum& A) {
 
 void ColumnSource::give(void* source, int first, int end, BuckensGridColumns* columns) {
   auto& own = *static_cast<ColumnSource*>(source);
-  own.piece_ = SparseMatrix();
+  SparseMatrix().swap(own.piece_);  // an assignment would keep the memory
   if (columns == nullptr) return;
   *columns = {};
   try {

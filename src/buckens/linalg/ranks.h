@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <span>
 
 #include "buckens/linalg/factor.h"
 #include "buckens/linalg/grid_plugin.h"
@@ -23,6 +25,10 @@ struct Traffic {
   double bytes = 0;
 };
 
+/// Columns `first` to `end` − 1 of a symmetric matrix from the diagonal on, n×(end − first), made
+/// of a description that the first process has sent (DividedMatrix::Describe).
+using MakeColumns = SparseMatrix (*)(std::span<const std::byte> description, int first, int end);
+
 /// Processes that mpirun started, among which large factors and iterative solvers are distributed.
 ///
 /// The first one does everything else; the others hold rows of matrices and of factors, and serve
@@ -38,7 +44,8 @@ class Ranks {
 
   bool is_first() const { return rank_ == 0; }
   /// Of the others: returns when the first has ended.
-  void serve();
+  /// @param make what they make columns by (DividedMatrix)
+  void serve(MakeColumns make);
   /// Processes that share the work now; 1 without an object.
   static int count();
   /// Zeros without an object.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/linalg/symmetric_matrix.h"
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
-#include "buckens/linalg/content_hash.h"
+#include "buckens/linalg/column_content.h"
 #include "buckens/linalg/divided_matrix.h"
 #include "buckens/linalg/same_bits.h"
 
@@ -11,18 +13,23 @@ namespace buckens::linalg {
 
 namespace {
 
+/// Of both triangles the lower one counts, as of a divided matrix.
 std::array<std::uint64_t, 2> content_of(const SparseMatrix& A) {
-  ContentHash hash;
-  const auto add = [&](const auto* from, Eigen::Index count) {
-    hash.add(from, sizeof(*from) * static_cast<std::size_t>(count));
-  };
-  add(A.valuePtr(), A.nonZeros());
-  add(A.innerIndexPtr(), A.nonZeros());
-  add(A.outerIndexPtr(), A.outerSize() + 1);
-  return hash.value();
+  std::array<std::uint64_t, 2> sum{};
+  for (int column = 0; column < A.cols(); ++column) {
+    const int* end = A.innerIndexPtr() + A.outerIndexPtr()[column + 1];
+    const int* first = std::lower_bound(A.innerIndexPtr() + A.outerIndexPtr()[column], end, column);
+    const auto place = static_cast<std::size_t>(first - A.innerIndexPtr());
+    const auto count = static_cast<std::size_t>(end - first);
+    add_content(column, {first, count}, {A.valuePtr() + place, count}, sum);
+  }
+  return sum;
 }
 
 }  // namespace
+
+SymmetricMatrix::SymmetricMatrix(std::shared_ptr<const DividedMatrix> rows)
+    : here_(rows->size(), rows->size()), divided_(std::move(rows)) {}
 
 Eigen::Index SymmetricMatrix::nonZeros() const {
   return divided_ ? divided_->entries() : here_.nonZeros();
@@ -31,6 +38,8 @@ Eigen::Index SymmetricMatrix::nonZeros() const {
 Vector SymmetricMatrix::diagonal() const {
   return divided_ ? divided_->diagonal() : Vector(here_.diagonal());
 }
+
+double SymmetricMatrix::norm() const { return divided_ ? divided_->norm() : here_.norm(); }
 
 const SparseMatrix& SymmetricMatrix::whole() const {
   if (divided_) {
@@ -53,7 +62,7 @@ std::array<std::uint64_t, 2> SymmetricMatrix::content() const {
 
 const DividedMatrix& SymmetricMatrix::divide() const {
   if (!divided_) {
-    divided_ = std::make_shared<const DividedMatrix>(here_, content_of(here_));
+    divided_ = std::make_shared<const DividedMatrix>(here_);
     drop();
   }
   return *divided_;

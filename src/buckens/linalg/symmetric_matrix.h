@@ -27,6 +27,8 @@ class SymmetricMatrix {
   SymmetricMatrix(const SparseMatrix& A) : here_(A) {}
   SymmetricMatrix(SparseMatrix&& A) { here_.swap(A); }
   // NOLINTEND(google-explicit-constructor)
+  /// One that is divided from the beginning.
+  explicit SymmetricMatrix(std::shared_ptr<const DividedMatrix> rows);
   SymmetricMatrix(const SymmetricMatrix&) = default;
   SymmetricMatrix& operator=(const SymmetricMatrix&) = default;
   // Eigen's own moves copy.
@@ -42,6 +44,8 @@ class SymmetricMatrix {
   Eigen::Index cols() const { return here_.cols(); }
   Eigen::Index nonZeros() const;
   Vector diagonal() const;
+  /// Of Frobenius.
+  double norm() const;
 
   /// In this process, from now on. The reference ends with the next divide().
   const SparseMatrix& whole() const;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/stepping/inertial_load.h"
 
+#include <cmath>
+
 #include "buckens/linalg/inverse_iteration.h"
+#include "buckens/linalg/matrix_sum.h"
 
 namespace buckens::stepping {
 
@@ -23,10 +26,35 @@ bool acts_by_node(const body::FlexiblePart& part, const body::NodalInertia& noda
   return (y - expected).norm() <= kProportional * expected.norm();
 }
 
+/// The same as of whole matrices, entry by entry where they are.
+std::optional<double> divided_stiffness_damping(const body::FlexiblePart& part) {
+  linalg::MatrixSum stiffness;
+  stiffness.add(1.0, part.fe.K);
+  const double size = linalg::inner_product(stiffness, stiffness);
+  if (!(size > 0.0)) return std::nullopt;
+  const auto rest = [&part](double beta) {
+    linalg::MatrixSum sum;
+    sum.add(1.0, part.C);
+    sum.add(-part.fe.mass_damping, part.fe.M);
+    sum.add(-beta, part.fe.K);
+    return sum;
+  };
+  double beta = 0;
+  for (int pass = 0; pass < 2; ++pass) {
+    beta += linalg::inner_product(rest(beta), stiffness) / size;
+  }
+  const double left = linalg::inner_product(rest(beta), rest(beta));
+  if (std::sqrt(left) > kProportional * part.C.norm()) return std::nullopt;
+  return beta;
+}
+
 }  // namespace
 
 std::optional<double> stiffness_damping(const body::FlexiblePart& part) {
   if (!part.is_damped()) return std::nullopt;
+  if (part.C.is_divided() && part.fe.M.is_divided() && part.fe.K.is_divided()) {
+    return divided_stiffness_damping(part);
+  }
   const SparseMatrix& K = part.fe.K;
   const SparseMatrix elastic = part.C.whole() - part.fe.mass_damping * part.fe.M.whole();
   const double size = K.squaredNorm();

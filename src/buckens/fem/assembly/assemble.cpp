@@ -7,9 +7,12 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/fem/assembly/inertia_assembly.h"
+#include "buckens/fem/assembly/made_columns.h"
 #include "buckens/fem/assembly/node_rotations.h"
 #include "buckens/fem/assembly/stiffness_assembly.h"
 #include "buckens/fem/element/node_label.h"
+#include "buckens/linalg/ranks.h"
 
 namespace buckens::fem {
 
@@ -158,30 +161,17 @@ void set_mass_damping(FeModel& fe) {
   fe.damps_held_motion = first->damps_held_motion;
 }
 
-/// Ms ⊗ 1 over the DOF.
-std::vector<Triplet> expand(const NodalMass& nodal) {
-  std::vector<Triplet> out;
-  out.reserve(static_cast<std::size_t>(3 * nodal.Ms.nonZeros()));
-  for (int column = 0; column < nodal.Ms.outerSize(); ++column) {
-    const auto& to = nodal.dofs[static_cast<std::size_t>(column)];
-    for (SparseMatrix::InnerIterator it(nodal.Ms, column); it; ++it) {
-      const auto& from = nodal.dofs[static_cast<std::size_t>(it.row())];
-      for (std::size_t a = 0; a < 3; ++a) {
-        if (from[a] >= 0 && to[a] >= 0) out.emplace_back(from[a], to[a], it.value());
-      }
-    }
-  }
-  return out;
+/// Whether the other processes are to make the matrices of a body.
+bool is_made_elsewhere(const Structure& structure, const Blocks& blocks, int num_dofs) {
+  const bool has_others = std::any_of(blocks.begin(), blocks.end(), [](const auto& block) {
+    return !block->is_solid() && block->num_elements() > 0;
+  });
+  // Links are eliminated, for which matrices are whole.
+  return linalg::is_shared_work(num_dofs) && !has_others && structure.links.empty();
 }
 
-NodalMass nodal_mass(const MeshView& mesh, const std::vector<Triplet>& entries) {
-  NodalMass out;
-  out.Ms = to_sparse(static_cast<int>(mesh.nodes.size()), entries);
-  for (const auto& node : mesh.dofs.node_dofs) out.dofs.push_back({node[0], node[1], node[2]});
-  return out;
-}
-
-void integrate_inertia(const Blocks& blocks, const MeshView& mesh, FeModel& fe) {
+/// @return the part of M that is not in Σ W_aa
+SparseMatrix integrate_inertia(const Blocks& blocks, const MeshView& mesh, FeModel& fe) {
   MassMoment moment;
   for (const auto& block : blocks) block->add_mass(mesh.nodes, moment);
   if (!(moment.mass > 0.0)) {
@@ -192,22 +182,35 @@ void integrate_inertia(const Blocks& blocks, const MeshView& mesh, FeModel& fe) 
   shape.com = moment.first / moment.mass;
 
   const int n = mesh.dofs.num_dofs;
-  InertiaSum sum;
-  sum.c = linalg::Matrix::Zero(n, 9);
-  for (const auto& block : blocks) block->add_inertia(mesh, shape.com, sum);
+  AssembledInertia inertia = assemble_inertia(blocks, mesh, shape.com);
+  InertiaSum& sum = inertia.sum;
   for (std::size_t k = 0; k < sum.W.size(); ++k) shape.W[k] = to_sparse(n, sum.W[k]);
   shape.c = std::move(sum.c);
   shape.C0 = sum.C0;
   shape.J0 = sum.C0.trace() * Eigen::Matrix3d::Identity() - sum.C0 + sum.J0_flywheel;
+  shape.nodal = std::move(inertia.nodal);
+  return to_sparse(n, sum.M_flywheel);
+}
+
+SparseMatrix assemble_mass(const FeModel& fe, const SparseMatrix& flywheel) {
+  const ShapeIntegrals& shape = fe.shape;
   SparseMatrix M = shape.W[0] + shape.W[1];
   M += shape.W[2];
-  M += to_sparse(n, sum.M_flywheel);
-  if (!sum.nodal.empty()) {
-    shape.nodal = nodal_mass(mesh, sum.nodal);
-    M += to_sparse(n, expand(shape.nodal));
-  }
+  M += flywheel;
+  if (!shape.nodal.empty()) M += mass_of_nodes(shape.nodal, fe.dofs.num_dofs);
   M.makeCompressed();
-  fe.M = std::move(M);
+  return M;
+}
+
+void let_others_make(const SolidBlock& solids, const MeshView& mesh, FeModel& fe) {
+  fe.M = matrix_made_elsewhere(MeshMatrix::mass, solids, mesh);
+  fe.K = matrix_made_elsewhere(MeshMatrix::stiffness, solids, mesh);
+  bool is_damped = false;
+  for (int e = 0; e < solids.num_elements(); ++e) {
+    is_damped = is_damped || solids.material(e)->damping_stiffness != 0.0;
+  }
+  fe.K_damping = SparseMatrix(mesh.dofs.num_dofs, mesh.dofs.num_dofs);
+  if (is_damped) fe.K_damping = matrix_made_elsewhere(MeshMatrix::damping, solids, mesh);
 }
 
 }  // namespace
@@ -229,11 +232,16 @@ FeModel assemble(const Structure& structure, std::optional<spatial::Plane> plana
   const MeshView mesh{fe.nodes, fe.dofs};
   for (const auto& block : fe.blocks) block->check(mesh);
 
-  integrate_inertia(fe.blocks, mesh, fe);
+  const SparseMatrix flywheel = integrate_inertia(fe.blocks, mesh, fe);
+  set_mass_damping(fe);
+  if (is_made_elsewhere(structure, fe.blocks, fe.dofs.num_dofs)) {
+    let_others_make(structure.solids, mesh, fe);
+    return fe;
+  }
+  fe.M = assemble_mass(fe, flywheel);
   StiffnessMatrices stiffness = assemble_stiffness(fe.blocks, mesh);
   fe.K = std::move(stiffness.K);
   fe.K_damping = std::move(stiffness.K_damping);
-  set_mass_damping(fe);
   return fe;
 }
 

@@ -3,6 +3,7 @@
 #include "buckens/linalg/supernode_tree.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 #include <set>
 #include <vector>
@@ -124,6 +125,38 @@ TEST(ColumnGraph, CountsAnEntryOfOneTriangleForBoth) {
   ASSERT_EQ(graph.size(), 4);
   EXPECT_EQ(graph.begin, (std::vector<int>{0, 0, 1, 1, 2}));
   EXPECT_EQ(graph.neighbours, (std::vector<int>{3, 1}));
+}
+
+/// Processes that have some entries each add up marks and list edges (divided_graph.h).
+TEST(ColumnGraph, FollowsFromMarksAndEdges) {
+  for (const SparseMatrix& A : all_kinds()) {
+    std::vector<std::uint64_t> marks(at(static_cast<int>(A.cols())), 0);
+    const auto visit_lower = [&A](auto&& visit) {
+      for (int j = 0; j < A.outerSize(); ++j) {
+        for (SparseMatrix::InnerIterator it(A, j); it; ++it) {
+          if (it.row() >= j) visit(static_cast<int>(it.row()), j);
+        }
+      }
+    };
+    const auto mark = [](int row) {
+      return std::uint64_t{0x9e3779b97f4a7c15U} * static_cast<std::uint64_t>(row * row + 7);
+    };
+    visit_lower([&](int i, int j) {
+      marks[at(j)] += mark(i);
+      if (i != j) marks[at(i)] += mark(j);
+    });
+    const std::vector<int> vertex = vertices_of(marks);
+    std::vector<int> edges;
+    visit_lower([&](int i, int j) {
+      if (vertex[at(i)] != vertex[at(j)]) edges.insert(edges.end(), {vertex[at(i)], vertex[at(j)]});
+    });
+    const ColumnGraph found = graph_of(vertex, edges);
+    const ColumnGraph expected = column_graph(A);
+    EXPECT_EQ(found.first_column, expected.first_column);
+    EXPECT_EQ(found.columns, expected.columns);
+    EXPECT_EQ(found.begin, expected.begin);
+    EXPECT_EQ(found.neighbours, expected.neighbours);
+  }
 }
 
 TEST(EliminationOrder, IsTheSameEveryTime) {

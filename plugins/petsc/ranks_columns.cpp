@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Matrices of which each process makes its columns, and what the first one knows of them.
+#include <array>
+
+#include "ranks_messages.h"
+#include "ranks_parts.h"
+
+namespace buckens_petsc {
+
+int Ranks::make_columns(int size, const BuckensGridDescription& of, BuckensGridFacts& facts) {
+  Order order;
+  order.task = Task::make_columns;
+  order.number = next_++;
+  order.size = size;
+  give(order);
+  return make_columns_together(order, &of, facts) ? order.number : -1;
+}
+
+/// A process makes its columns while the first describes those of the next.
+bool Ranks::make_columns_together(const Order& order, const BuckensGridDescription* of,
+                                  BuckensGridFacts& facts) {
+  std::unique_ptr<Divided> matrix = empty_division(order);
+  bool is_made = false;
+  if (of != nullptr) {
+    is_made = send_descriptions(*matrix, *of);
+  } else {
+    long bytes = 0;
+    receive(&bytes, 1, 0, work_);
+    if (bytes >= 0) {
+      std::vector<char> description(static_cast<std::size_t>(bytes));
+      receive(description.data(), description.size(), 0, work_);
+      is_made = make_columns_of(description, *matrix);
+    }
+  }
+  if (has_failed_somewhere(!is_made)) return false;
+  return keep(order, std::move(matrix), facts);
+}
+
+bool Ranks::send_descriptions(const Divided& matrix, const BuckensGridDescription& of) {
+  bool has_memory = true;
+  for (int k = 1; k < count_; ++k) {
+    const void* bytes = nullptr;
+    long count = -1;
+    has_memory = has_memory &&
+                 of.describe(of.source, matrix.first[k], matrix.first[k + 1], &bytes, &count) == 0;
+    if (!has_memory) count = -1;
+    send_counted(&count, 1, k);
+    if (count < 0) continue;
+    send_counted(static_cast<const char*>(bytes), static_cast<std::size_t>(count), k);
+  }
+  if (!has_memory) set_reason("there is too little memory for what the rows are made of");
+  return has_memory;
+}
+
+bool Ranks::make_columns_of(const std::vector<char>& description, Divided& matrix) {
+  std::array<char, 400> error{};
+  BuckensGridColumns columns{};
+  const int first = matrix.first[rank_];
+  const int end = matrix.first[rank_ + 1];
+  const auto bytes = static_cast<long>(description.size());
+  if (maker_.make(description.data(), bytes, first, end, &columns, error.data(),
+                  static_cast<int>(error.size())) != 0) {
+    set_reason(error.data());
+    return false;
+  }
+  const bool has_room = has_memory_for([&] {
+    const int entries = columns.starts[end - first];
+    matrix.starts.assign(columns.starts, columns.starts + (end - first) + 1);
+    matrix.rows.assign(columns.rows, columns.rows + entries);
+    matrix.values.assign(columns.values, columns.values + entries);
+  });
+  (void)maker_.make(nullptr, 0, 0, 0, nullptr, error.data(), static_cast<int>(error.size()));
+  return has_room;
+}
+
+/// Of a matrix whose rows are numbers of variables.
+void Ranks::sum_facts(const Divided& matrix, BuckensGridFacts& facts) {
+  const int first = matrix.first[rank_];
+  BuckensGridFacts own{};
+  for (int k = 0; k < matrix.count(); ++k) {
+    double squares = 0;
+    for (int e = matrix.starts[k]; e < matrix.starts[k + 1]; ++e) {
+      const int times = matrix.rows[e] == first + k ? 1 : 2;
+      own.entries += times;
+      squares += times * matrix.values[e] * matrix.values[e];
+    }
+    own.square_norm += squares;
+  }
+  if (rank_ != 0) {
+    const BuckensGridColumns columns{matrix.starts.data(), matrix.rows.data(),
+                                     matrix.values.data()};
+    maker_.add_content(first, first + matrix.count(), &columns, own.content);
+  }
+  std::vector<BuckensGridFacts> all(static_cast<std::size_t>(count_));
+  MPI_Gather(&own, sizeof own, MPI_BYTE, all.data(), sizeof own, MPI_BYTE, 0, work_);
+  count_messages(count_ - 1, sizeof own);
+  facts = {};
+  for (const BuckensGridFacts& share : all) {  // in the order of the processes
+    facts.entries += share.entries;
+    facts.square_norm += share.square_norm;
+    for (int k = 0; k < 2; ++k) facts.content[k] += share.content[k];
+  }
+}
+
+void Ranks::diagonal(int matrix, double* values) {
+  give(Task::diagonal, matrix);
+  Order order;
+  order.number = matrix;
+  diagonal_together(order, values);
+}
+
+void Ranks::diagonal_together(const Order& order, double* values) {
+  const Divided& matrix = *shared_->matrices.at(order.number);
+  std::vector<double> own(static_cast<std::size_t>(matrix.count()), 0.0);
+  for (int k = 0; k < matrix.count(); ++k) {
+    const int at = matrix.starts[k];  // variables begin with the columns here
+    if (at < matrix.starts[k + 1] && matrix.rows[at] == k) own[k] = matrix.values[at];
+  }
+  MPI_Gatherv(own.data(), matrix.count(), MPI_DOUBLE, values, matrix.counts.data(),
+              matrix.first.data(), MPI_DOUBLE, 0, work_);
+  count_messages(count_ - 1, 0);
+  traffic_.bytes += sizeof(double) * static_cast<double>(matrix.size);
+}
+
+}  // namespace buckens_petsc

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/fem/assembly/inertia_assembly.h"
+
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+#include "buckens/fem/assembly/element_pieces.h"
+#include "buckens/fem/assembly/stiffness_assembly.h"
+
+namespace buckens::fem {
+
+using linalg::SparseMatrix;
+
+namespace {
+
+DofMap one_per_node(std::size_t num_nodes) {
+  DofMap out;
+  for (std::size_t node = 0; node < num_nodes; ++node) {
+    out.node_dofs.push_back({out.num_dofs++, -1, -1, -1, -1, -1});
+  }
+  return out;
+}
+
+}  // namespace
+
+AssembledInertia assemble_inertia(const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
+                                  const MeshView& mesh, const Eigen::Vector3d& com) {
+  AssembledInertia out;
+  out.sum.c = linalg::Matrix::Zero(mesh.dofs.num_dofs, 9);
+  std::optional<EntrySums> Ms;
+  for (const auto& block : blocks) {
+    visit_pieces(*block, mesh.nodes, [&](const ElementBlock& piece, int) {
+      piece.add_inertia(mesh, com, out.sum);
+      if (out.sum.nodal.empty()) return;
+      if (!Ms) Ms.emplace(blocks, one_per_node(mesh.nodes.size()));
+      Ms->add(out.sum.nodal);
+      out.sum.nodal.clear();
+    });
+  }
+  out.sum.nodal = {};
+  if (!Ms) return out;
+  out.nodal.Ms = Ms->take();
+  for (const auto& node : mesh.dofs.node_dofs) {
+    out.nodal.dofs.push_back({node[0], node[1], node[2]});
+  }
+  return out;
+}
+
+SparseMatrix mass_of_nodes(const NodalMass& nodal, int n) {
+  SparseMatrix out(n, n);
+  int* starts = out.outerIndexPtr();
+  const auto visit = [&nodal](auto&& entry) {
+    for (int to = 0; to < nodal.Ms.outerSize(); ++to) {
+      for (std::size_t a = 0; a < 3; ++a) {
+        const int column = nodal.dofs[static_cast<std::size_t>(to)][a];
+        if (column < 0) continue;
+        for (SparseMatrix::InnerIterator it(nodal.Ms, to); it; ++it) {
+          const int row = nodal.dofs[static_cast<std::size_t>(it.row())][a];
+          if (row >= 0) entry(row, column, it.value());
+        }
+      }
+    }
+  };
+  std::fill_n(starts, n + 1, 0);
+  visit([starts](int, int column, double) { ++starts[column + 1]; });
+  std::partial_sum(starts, starts + n + 1, starts);
+  out.resizeNonZeros(starts[n]);
+  // Variables ascend with nodes, and so do columns and rows here.
+  int place = 0;
+  visit([&](int row, int, double value) {
+    out.innerIndexPtr()[place] = row;
+    out.valuePtr()[place++] = value;
+  });
+  return out;
+}
+
+}  // namespace buckens::fem

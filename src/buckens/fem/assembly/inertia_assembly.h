@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "buckens/fem/element/block.h"
+#include "buckens/fem/element/shape_integrals.h"
+
+namespace buckens::fem {
+
+struct AssembledInertia {
+  InertiaSum sum;   ///< without `nodal`
+  NodalMass nodal;  ///< of what elements have added to it
+};
+
+/// Sums the inertia of all elements, some thousand at a time.
+/// @param com mass centre of the whole body in model axes [m]
+AssembledInertia assemble_inertia(const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
+                                  const MeshView& mesh, const Eigen::Vector3d& com);
+
+/// Ms ⊗ 1 over the variables, n×n.
+linalg::SparseMatrix mass_of_nodes(const NodalMass& nodal, int n);
+
+}  // namespace buckens::fem

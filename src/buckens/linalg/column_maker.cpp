@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/linalg/column_maker.h"
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "buckens/linalg/column_content.h"
+#include "buckens/linalg/finite_matrix.h"
+
+namespace buckens::linalg {
+
+namespace {
+
+MakeColumns the_maker = nullptr;
+SparseMatrix last_columns;
+
+/// Errors end here: C is between them and the first process.
+int make_some(const void* bytes, long count, int first, int end, BuckensGridColumns* columns,
+              char* error, int error_size) try {
+  SparseMatrix().swap(last_columns);  // an assignment would keep the memory
+  if (columns == nullptr) return 0;
+  const std::span description(static_cast<const std::byte*>(bytes),
+                              static_cast<std::size_t>(count));
+  SparseMatrix made = the_maker(description, first, end);
+  require_finite(made, first);
+  made.makeCompressed();
+  last_columns.swap(made);
+  *columns = {last_columns.outerIndexPtr(), last_columns.innerIndexPtr(), last_columns.valuePtr()};
+  return 0;
+} catch (const std::bad_alloc&) {
+  std::snprintf(error, static_cast<std::size_t>(error_size), "%s",
+                "there is too little memory for making the rows of the matrix");
+  return 1;
+} catch (const std::exception& failure) {
+  std::snprintf(error, static_cast<std::size_t>(error_size), "%s", failure.what());
+  return 1;
+}
+
+void add_content_of(int first, int end, const BuckensGridColumns* columns,
+                    unsigned long long* content) {
+  std::array<std::uint64_t, 2> sum{};
+  for (int k = 0; k < end - first; ++k) {
+    const int begin = columns->starts[k];
+    const auto count = static_cast<std::size_t>(columns->starts[k + 1] - begin);
+    add_content(first + k, {columns->rows + begin, count}, {columns->values + begin, count}, sum);
+  }
+  for (std::size_t k = 0; k < sum.size(); ++k) content[k] += sum[k];
+}
+
+}  // namespace
+
+BuckensGridMaker column_maker(MakeColumns make) {
+  the_maker = make;
+  return {make_some, add_content_of};
+}
+
+}  // namespace buckens::linalg
