@@ -17,8 +17,7 @@ class NameIndex {
   /// The first entry called `name`, or null. Entries have a member `name`.
   template <class T>
   const T* find(const std::vector<T>& list, const std::string& name) {
-    for (; num_known_ < list.size(); ++num_known_)
-      places_.emplace(list[num_known_].name, num_known_);
+    see(list);
     const auto found = places_.find(name);
     if (found != places_.end() && found->second < list.size() && list[found->second].name == name) {
       return &list[found->second];
@@ -29,7 +28,25 @@ class NameIndex {
     return nullptr;
   }
 
+  /// Whether the list has an entry called `name`. One that got this name after it was first seen is
+  /// not found: a "no" takes no time that grows with the list either.
+  template <class T>
+  bool has_seen(const std::vector<T>& list, const std::string& name) {
+    see(list);
+    return places_.contains(name) && find(list, name) != nullptr;
+  }
+
  private:
+  template <class T>
+  void see(const std::vector<T>& list) {
+    if (list.size() < num_known_) {
+      places_.clear();
+      num_known_ = 0;
+    }
+    for (; num_known_ < list.size(); ++num_known_)
+      places_.emplace(list[num_known_].name, num_known_);
+  }
+
   std::unordered_map<std::string, std::size_t> places_;
   std::size_t num_known_ = 0;
 };

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/model/builder.h"
 
+#include <string_view>
+#include <unordered_set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
+#include "buckens/model/check/marker_names.h"
 
 namespace buckens::model {
 
@@ -15,6 +18,15 @@ namespace {
 std::array<base::TimeLaw, 3> constant_laws(const Eigen::Vector3d& value) {
   return {base::TimeLaw::constant(value.x()), base::TimeLaw::constant(value.y()),
           base::TimeLaw::constant(value.z())};
+}
+
+template <class Spec>
+void require_different(const std::vector<Spec>& list) {
+  std::unordered_set<std::string_view> names;
+  for (const Spec& spec : list) {
+    if (names.insert(spec.name).second) continue;
+    throw InputError(fmt::format("the name \"{}\" is taken; use another", spec.name));
+  }
 }
 
 }  // namespace
@@ -53,15 +65,17 @@ body::BodySpec& ModelBuilder::add_rigid(const std::string& name, double mass,
 
 void ModelBuilder::add_marker(const std::string& body, const std::string& name,
                               const Eigen::Vector3d& position) {
-  std::vector<std::string> known;
-  for (body::BodySpec& spec : description_.bodies) {
-    known.push_back(spec.name);
-    if (spec.name == body) {
-      add_named(spec.markers, name).position = position;
-      return;
-    }
+  const body::BodySpec* found = bodies_.find(description_.bodies, body);
+  if (found == nullptr) {
+    throw InputError(fmt::format("there is no body \"{}\".{}", body,
+                                 base::suggestion(body, names_of(description_.bodies))));
   }
-  throw InputError(fmt::format("there is no body \"{}\".{}", body, base::suggestion(body, known)));
+  std::vector<body::MarkerSpec>& markers =
+      description_.bodies[static_cast<std::size_t>(found - description_.bodies.data())].markers;
+  require_new(base::find_named(markers, name) == nullptr, name);
+  body::MarkerSpec& marker = markers.emplace_back();
+  marker.name = name;
+  marker.position = position;
 }
 
 void ModelBuilder::add_force(const std::string& name, const std::string& on,
@@ -88,11 +102,20 @@ void ModelBuilder::add_force_law(const std::string& name, const std::string& on,
 void ModelBuilder::add_force_element(const std::string& name,
                                      std::shared_ptr<const loads::ForceElement> element,
                                      const std::string& first, const std::string& second) {
-  require_new(base::find_named(description_.loads, name) == nullptr, name);
-  OwnForce& force = add_named(description_.own_forces, name);
+  require_new(!loads_.has_seen(description_.loads, name), name);
+  OwnForce& force = add_named(description_.own_forces, own_forces_, name);
   force.first = marker(first);
   force.second = marker(second);
   force.element = std::move(element);
+}
+
+std::unique_ptr<BuiltModel> ModelBuilder::build() const {
+  require_different(description_.bodies);
+  require_different(description_.joints);
+  require_different(description_.loads);
+  require_different(description_.own_forces);
+  require_different(description_.output.sensors);
+  return build_model(description_);
 }
 
 SimulationSpec& ModelBuilder::simulation(double duration, double step) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "buckens/base/name_index.h"
 #include "buckens/loads/function_force.h"
 #include "buckens/model/build/build_model.h"
 
@@ -25,7 +26,7 @@ class ModelBuilder {
   /// @param kind RigidSpec, BeamSpec, StructureSpec, MeshSpec, …
   template <class Kind>
   body::BodySpec& add_body(const std::string& name, Kind kind) {
-    body::BodySpec& spec = add_named(description_.bodies, name);
+    body::BodySpec& spec = add_named(description_.bodies, bodies_, name);
     spec.kind = std::move(kind);
     return spec;
   }
@@ -42,7 +43,7 @@ class ModelBuilder {
   Kind& add_joint(const std::string& name, Kind kind, const base::MarkerRef& first,
                   const base::MarkerRef& second) {
     kind.between = {first, second};
-    joints::JointSpec& spec = add_named(description_.joints, name);
+    joints::JointSpec& spec = add_named(description_.joints, joints_, name);
     spec.kind = std::move(kind);
     return std::get<Kind>(spec.kind);
   }
@@ -54,7 +55,7 @@ class ModelBuilder {
   /// @param kind ForceSpec, SpringDamperSpec, …
   template <class Kind>
   Kind& add_load(const std::string& name, Kind kind) {
-    loads::LoadSpec& spec = add_named(description_.loads, name);
+    loads::LoadSpec& spec = add_named(description_.loads, loads_, name);
     spec.kind = std::move(kind);
     return std::get<Kind>(spec.kind);
   }
@@ -72,7 +73,7 @@ class ModelBuilder {
   /// @param kind PositionSensor, JointForceSensor, …
   template <class Kind>
   Kind& add_sensor(const std::string& name, Kind kind) {
-    SensorSpec& spec = add_named(description_.output.sensors, name);
+    SensorSpec& spec = add_named(description_.output.sensors, sensors_, name);
     spec.kind = std::move(kind);
     return std::get<Kind>(spec.kind);
   }
@@ -87,13 +88,14 @@ class ModelBuilder {
   /// The whole description, for whatever has no function here.
   ModelDescription& description() { return description_; }
   /// Builds and checks the mechanism; can be called again after changes.
-  /// @throws InputError, ModelError with the names of bodies, joints and markers
-  std::unique_ptr<BuiltModel> build() const { return build_model(description_); }
+  /// @throws InputError, ModelError with the names of bodies, joints and markers; InputError if two
+  /// parts of a kind have one name because one of them was renamed
+  std::unique_ptr<BuiltModel> build() const;
 
  private:
   template <class Spec>
-  Spec& add_named(std::vector<Spec>& list, const std::string& name) {
-    require_new(base::find_named(list, name) == nullptr, name);
+  Spec& add_named(std::vector<Spec>& list, base::NameIndex& index, const std::string& name) {
+    require_new(!index.has_seen(list, name), name);
     Spec& spec = list.emplace_back();
     spec.name = name;
     return spec;
@@ -102,6 +104,7 @@ class ModelBuilder {
   static void require_new(bool is_new, const std::string& name);
 
   ModelDescription description_;
+  base::NameIndex bodies_, joints_, loads_, own_forces_, sensors_;  // of those of the description
 };
 
 }  // namespace buckens::model

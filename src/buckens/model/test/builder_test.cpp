@@ -71,6 +71,20 @@ TEST(ModelBuilder, RefusesNamesTwiceAndUnknownBodies) {
               ThrowsMessage<InputError>(HasSubstr("\"push\" is taken")));
 }
 
+TEST(ModelBuilder, RefusesNamesThatAreGivenTwiceByRenaming) {
+  ModelBuilder m = pendulum();
+  body::BodySpec& other = m.add_rigid("other", 1, {0, 0, 0}, {0, 0, 1});
+  other.name = "rod";
+  EXPECT_THAT([&] { m.build(); }, ThrowsMessage<InputError>(HasSubstr("\"rod\" is taken")));
+  other.name = "third";
+  m.add_marker("third", "end", {1, 0, 0});
+  EXPECT_EQ(m.description().bodies.back().markers.size(), 1U);
+  // A name that is no longer used is free.
+  m.description().bodies.pop_back();
+  m.add_rigid("third", 1, {0, 0, 0}, {0, 0, 1});
+  EXPECT_EQ(m.description().bodies.size(), 2U);
+}
+
 TEST(ModelBuilder, AnOwnForceActsOnItsMarker) {
   ModelBuilder m = pendulum();
   m.add_force_law("drag", "rod/pin", [](double t, const spatial::MarkerMotion& marker) {
