@@ -75,8 +75,7 @@ py::array SimulationHandle::multipliers() {
 py::array SimulationHandle::value(const std::string& path) const {
   require_at_rest("value");
   const auto map = evaluate([&] { return simulation_->values(path); });
-  const results::RecordLayout& layout = simulation_->layout();
-  const results::Channel& channel = layout.channel(static_cast<std::size_t>(layout.find(path)));
+  const results::Channel channel = simulation_->channel(path);
   const std::vector<py::ssize_t> shape(channel.shape.begin(), channel.shape.end());
   py::array_t<double> out(shape);
   std::copy_n(map.data(), map.size(), out.mutable_data());

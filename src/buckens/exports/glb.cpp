@@ -257,8 +257,11 @@ class GlbExporter {
     Eigen::Matrix3Xf places(3, static_cast<Eigen::Index>(instants_.size()));
     std::vector<std::array<float, 4>> turns;
     Eigen::Vector4d before = Eigen::Vector4d::Zero();
+    std::vector<std::size_t> records;
+    for (const run_store::Instant& now : instants_) records.push_back(now.record);
+    const std::vector<spatial::Pose> poses = run_store::poses_of(run_, body.name, records);
     for (std::size_t k = 0; k < instants_.size(); ++k) {
-      const spatial::Pose X = run_store::pose_of(run_, body.name, instants_[k].record);
+      const spatial::Pose& X = poses[k];
       places.col(static_cast<Eigen::Index>(k)) = X.p.cast<float>();
       Eigen::Vector4d q = X.q.coeffs();
       if (q.dot(before) < 0.0) q = -q;  // interpolation takes the short way

@@ -87,8 +87,8 @@ std::vector<double> FrameReader::scalars(const std::string& path) const {
 }
 
 std::size_t FrameReader::size_of(const std::string& path) const {
-  const int index = run_.layout().find(path);
-  return index < 0 ? 0 : run_.layout().channel(static_cast<std::size_t>(index)).size();
+  const auto channel = run_.find(path);
+  return channel ? channel->size() : 0;
 }
 
 std::vector<double> values_at(const std::vector<double>& all, const std::vector<std::size_t>& at) {

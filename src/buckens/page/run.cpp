@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <set>
 #include <string>
 #include <string_view>
@@ -22,6 +23,7 @@
 #include "buckens/page/fields.h"
 #include "buckens/page/frames.h"
 #include "buckens/page/origin.h"
+#include "buckens/results/motion_tables.h"
 #include "buckens/run_store/run_directory.h"
 #include "buckens/run_store/run_reader.h"
 
@@ -32,16 +34,35 @@ namespace {
 using Json = nlohmann::ordered_json;
 using results::Channel;
 
+constexpr std::size_t kPoseNumbers = 7;
+
 /// A body and what it shows in colour.
 struct Shown {
   PageBody body;
   std::vector<PageField> fields;
 };
 
+/// Among more bodies than this, rigid ones are only counted: there is nothing to tell of them.
+constexpr std::size_t kManyBodies = 100;
+
+void count_rigid_bodies(nlohmann::json& summary) {
+  const auto bodies = summary.find("bodies");
+  if (bodies == summary.end() || !bodies->is_object() || bodies->size() <= kManyBodies) return;
+  std::size_t count = 0;
+  for (auto body = bodies->begin(); body != bodies->end();) {
+    const bool is_rigid = body->is_object() && body->value("dof", nlohmann::json()) == 0;
+    count += is_rigid ? 1 : 0;
+    body = is_rigid ? bodies->erase(body) : std::next(body);
+  }
+  if (count > 0) summary["rigid_bodies"] = count;
+}
+
 /// The summary of a run, null where a crash has damaged it.
 nlohmann::json parse_summary(const std::string& text) {
   nlohmann::json summary = nlohmann::json::parse(text, nullptr, false);
-  return summary.is_discarded() ? nlohmann::json() : summary;
+  if (summary.is_discarded()) return nullptr;
+  if (summary.is_object()) count_rigid_bodies(summary);
+  return summary;
 }
 
 /// Values of a vector over time, null where it was not recorded.
@@ -164,6 +185,10 @@ void choose_size(const run_store::RunReader& run, const std::vector<Shown>& show
                           path.starts_with("loads/") || path.starts_with("modes/") ||
                           path.starts_with("joints/");
     if (is_shown) plain += channel.size();
+    // Of thousands of bodies all poses stand in one channel, beside velocities; of joints all
+    // forces.
+    if (path == results::kMotionsPath) plain += kPoseNumbers * run.geometry().bodies.size();
+    if (path == results::kReactionsPath) plain += channel.size();
   }
   std::size_t ranges = 0;  // ends of ranges of rounded rows
   for (const Shown& one : shown) {
@@ -174,7 +199,7 @@ void choose_size(const run_store::RunReader& run, const std::vector<Shown>& show
   const std::size_t wanted = std::min(run.num_records(), options.max_frames);
   constexpr std::size_t kFloat = sizeof(float);
   constexpr std::size_t kCode = sizeof(std::uint16_t);
-  report.rounded = wanted * kFloat * (plain + rows) > options.max_bytes / 4;
+  report.rounded = rows > 0 && wanted * kFloat * (plain + rows) > options.max_bytes / 4;
   const std::size_t of_rows = report.rounded ? kCode * rows + kFloat * ranges : kFloat * rows;
   const std::size_t bytes = kFloat * plain + of_rows;
   report.frames = std::min(wanted, options.max_bytes / bytes);

@@ -10,6 +10,7 @@
 #include "buckens/dynamics/signals.h"
 #include "buckens/results/divided_body.h"
 #include "buckens/results/model_geometry.h"
+#include "buckens/results/motion_tables.h"
 #include "buckens/results/sensor_component.h"
 
 namespace buckens::results {
@@ -93,44 +94,21 @@ void Recorder::add_mesh_channels(const model::WholeBody& whole, const fem::FeMod
 void Recorder::add_tables() {
   // Values stand in the same order as those of data sets for each.
   const model::Model& model = built_.model;
-  layout_.add({"motions",
-               "m, 1, m/s, rad/s",
-               {static_cast<int>(model.wholes.size()), 13},
-               "of all bodies in the order of the model file: pose, velocity and angular velocity",
-               {"x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz"}});
-  if (model.joints.empty()) return;
-  layout_.add({"reactions",
-               "N, N m",
-               {static_cast<int>(model.joints.size()), 6},
-               "of all joints in the order of the model: force and torque on the second marker, "
-               "world axes",
-               {"Fx", "Fy", "Fz", "Mx", "My", "Mz"}});
+  layout_.add(motions_channel(model.wholes.size()));
+  if (!model.joints.empty()) layout_.add(reactions_channel(model.joints.size()));
 }
 
 void Recorder::add_body_and_joint_channels() {
   const model::Model& model = built_.model;
   for (const model::WholeBody& whole : model.wholes) {
-    const std::string path = "bodies/" + whole.name;
-    layout_.add({path + "/pose",
-                 "m, 1",
-                 {7},
-                 "origin of the body frame and its quaternion",
-                 {"x", "y", "z", "qw", "qx", "qy", "qz"}});
-    layout_.add({path + "/velocity", "m/s", {3}, "of the body frame's origin, world axes", kXyz});
-    layout_.add({path + "/angular_velocity", "rad/s", {3}, "of the body frame, body axes", kXyz});
+    for (Channel& channel : body_channels(whole.name)) layout_.add(std::move(channel));
     const fem::FeModel* mesh = mesh_of(model, whole);
     if (mesh == nullptr) continue;
     add_mesh_channels(whole, *mesh);
   }
   for (const model::Joint& joint : model.joints) {
     if (joint.is_tie) continue;
-    layout_.add(
-        {"joints/" + joint.name + "/force", "N", {3}, "on the second marker, world axes", kXyz});
-    layout_.add({"joints/" + joint.name + "/torque",
-                 "N m",
-                 {3},
-                 "on the second marker about its origin, world axes",
-                 kXyz});
+    for (Channel& channel : joint_channels(joint.name)) layout_.add(std::move(channel));
   }
 }
 

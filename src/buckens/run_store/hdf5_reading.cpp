@@ -196,15 +196,15 @@ std::vector<double> read_any_double_dataset(const Hdf5File& file, const std::str
   return all_values<double>(file, path, dataset, H5T_NATIVE_DOUBLE);
 }
 
-void read_rows(const Hdf5File& file, const Hdf5Dataset& dataset, const std::string& path,
-               std::size_t first, std::size_t count, double* values) {
+namespace {
+
+/// Reads a block of a data set.
+void read_block(const Hdf5File& file, const Hdf5Dataset& dataset, const std::string& path,
+                const std::vector<hsize_t>& start, const std::vector<hsize_t>& block,
+                double* values) {
   const Hdf5Quiet quiet;
   const std::string what = "read " + path;
   const Hdf5Handle from(file.check(H5Dget_space(dataset.handle.get()), what), H5Sclose);
-  std::vector<hsize_t> block = dataset.extents;
-  std::vector<hsize_t> start(block.size(), 0);
-  start.at(0) = first;
-  block.at(0) = count;
   const hid_t selected =
       H5Sselect_hyperslab(from.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr);
   file.check(selected, what);
@@ -213,6 +213,28 @@ void read_rows(const Hdf5File& file, const Hdf5Dataset& dataset, const std::stri
   file.check(
       H5Dread(dataset.handle.get(), H5T_NATIVE_DOUBLE, to.get(), from.get(), H5P_DEFAULT, values),
       what);
+}
+
+}  // namespace
+
+void read_rows(const Hdf5File& file, const Hdf5Dataset& dataset, const std::string& path,
+               std::size_t first, std::size_t count, double* values) {
+  std::vector<hsize_t> block = dataset.extents;
+  std::vector<hsize_t> start(block.size(), 0);
+  start.at(0) = first;
+  block.at(0) = count;
+  read_block(file, dataset, path, start, block, values);
+}
+
+void read_rows(const Hdf5File& file, const Hdf5Dataset& dataset, const std::string& path,
+               std::size_t first, std::size_t count, const Hdf5Range& entries, double* values) {
+  std::vector<hsize_t> block = dataset.extents;
+  std::vector<hsize_t> start(block.size(), 0);
+  start.at(0) = first;
+  block.at(0) = count;
+  start.at(1) = entries.first;
+  block.at(1) = entries.count;
+  read_block(file, dataset, path, start, block, values);
 }
 
 }  // namespace buckens::run_store

@@ -40,4 +40,14 @@ std::vector<double> read_any_double_dataset(const Hdf5File& file, const std::str
 void read_rows(const Hdf5File& file, const Hdf5Dataset& dataset, const std::string& path,
                std::size_t first, std::size_t count, double* values);
 
+/// Entries along the second extent, of all rows that are read.
+struct Hdf5Range {
+  std::size_t first = 0, count = 0;
+};
+/// The same for some entries of each row.
+/// @pre the data set has a second extent
+/// @param values room for count × entries.count × the values of an entry
+void read_rows(const Hdf5File& file, const Hdf5Dataset& dataset, const std::string& path,
+               std::size_t first, std::size_t count, const Hdf5Range& entries, double* values);
+
 }  // namespace buckens::run_store

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/results/motion_tables.h"
 
 namespace buckens::run_store {
 
@@ -92,6 +93,18 @@ void check_shape(const Hdf5File& file, const results::RecordLayout& layout, cons
                      fmt::join(shape, " x ")));
 }
 
+/// @param may_be_shorter it may have fewer rows
+void check_table(const Hdf5File& file, const results::RecordLayout& layout,
+                 results::Channel expected, bool may_be_shorter = false) {
+  const int index = layout.find(expected.path);
+  if (index < 0) return;
+  const std::vector<int>& found = layout.channel(static_cast<std::size_t>(index)).shape;
+  if (may_be_shorter && !found.empty() && found[0] < expected.shape[0]) {
+    expected.shape[0] = found[0];
+  }
+  check_shape(file, layout, expected.path, expected.shape);
+}
+
 }  // namespace
 
 results::RecordLayout read_layout(const Hdf5File& file, const std::string& group, hsize_t rows) {
@@ -119,6 +132,9 @@ Hdf5Dataset open_channel(const Hdf5File& file, const results::Channel& channel) 
 
 void check_channels(const Hdf5File& file, const results::Geometry& geometry,
                     const results::RecordLayout& records, const results::RecordLayout& fields) {
+  check_table(file, records, results::motions_channel(geometry.bodies.size()));
+  // Springs and the like are drawn with the joints, after them: they have no row.
+  check_table(file, records, results::reactions_channel(geometry.joints.size()), true);
   for (const results::GeometryBody& body : geometry.bodies) {
     const std::string group = fmt::format("bodies/{}/", body.name);
     check_shape(file, records, group + "pose", {7});

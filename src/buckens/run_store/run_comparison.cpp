@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/results/motion_tables.h"
 
 namespace buckens::run_store {
 
@@ -44,24 +45,33 @@ CommonRecords common_records(const std::vector<double>& a, const std::vector<dou
 std::map<std::string, std::vector<std::size_t>> groups_of(const results::Channel& channel) {
   std::map<std::string, std::vector<std::size_t>> out;
   const std::size_t width = std::max<std::size_t>(1, channel.components.size());
+  const bool is_of_motions = channel.path == results::kMotionsPath;
   for (std::size_t k = 0; k < channel.size(); ++k) {
     const std::string name = channel.components.empty() ? "" : channel.components[k % width];
     std::string kind;
     if (name.starts_with('r') || name.starts_with('q')) kind = "rotation";
     if (name.starts_with('M')) kind = "moment";
+    if (is_of_motions && name.starts_with('v')) kind = "velocity";
+    if (is_of_motions && name.starts_with('w')) kind = "angular velocity";
     out[kind].push_back(k);
   }
   if (out.size() == 1) out = {{"", out.begin()->second}};
   return out;
 }
 
-/// Position and quaternion of a body; sensors may have any name.
-bool is_pose(const results::Channel& channel) {
-  return channel.path.starts_with("bodies/") && channel.path.ends_with("/pose") &&
-         channel.size() == 7;
+/// Numbers per body where a channel begins with its position and quaternion, otherwise 0; sensors
+/// may have any name.
+std::size_t pose_width(const results::Channel& channel) {
+  if (channel.path == results::kMotionsPath) {
+    return static_cast<std::size_t>(channel.shape.back());
+  }
+  const bool is_pose =
+      channel.path.starts_with("bodies/") && channel.path.ends_with("/pose") && channel.size() == 7;
+  return is_pose ? channel.size() : 0;
 }
 
 /// q and −q are the same rotation.
+/// @param width numbers per body
 void align_quaternions(std::size_t width, const std::vector<double>& a, std::vector<double>& b) {
   for (std::size_t row = 0; row + width <= a.size(); row += width) {
     double product = 0;
@@ -71,9 +81,16 @@ void align_quaternions(std::size_t width, const std::vector<double>& a, std::vec
 }
 
 std::string unit_of(const results::Channel& channel, const std::string& kind) {
-  const std::size_t comma = channel.unit.find(", ");
-  if (comma == std::string::npos) return channel.unit;
-  return kind.empty() ? channel.unit.substr(0, comma) : channel.unit.substr(comma + 2);
+  // "m, 1, m/s, rad/s": in the order of the kinds.
+  std::size_t begin = 0;
+  for (int k = kind == "angular velocity" ? 3
+               : kind == "velocity"       ? 2
+               : kind.empty()             ? 0
+                                          : 1;
+       k > 0 && channel.unit.find(", ", begin) != std::string::npos; --k) {
+    begin = channel.unit.find(", ", begin) + 2;
+  }
+  return channel.unit.substr(begin, channel.unit.find(", ", begin) - begin);
 }
 
 class Comparison {
@@ -135,7 +152,7 @@ class Comparison {
       const std::vector<double> a = first_.read(channel.path, records);
       std::vector<double> b =
           second_.read(channel.path, std::span(common_.second).subspan(begin, count));
-      if (is_pose(channel)) align_quaternions(channel.size(), a, b);
+      if (pose_width(channel) > 0) align_quaternions(pose_width(channel), a, b);
       std::size_t group = 0;
       for (const auto& [kind, components] : groups) {
         compare(records, components, channel.size(), a, b, found[group++]);

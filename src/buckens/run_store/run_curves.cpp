@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -25,13 +26,11 @@ std::vector<std::string> components_of(const results::Channel& channel) {
 }
 
 /// A sensor by its name, or any channel by its path.
-const results::Channel* find_channel_called(const RunReader& run, const std::string& name) {
-  const results::RecordLayout& layout = run.layout();
+std::optional<results::Channel> find_channel_called(const RunReader& run, const std::string& name) {
   for (const std::string& path : {kSensors + name, name}) {
-    const int index = layout.find(path);
-    if (index >= 0) return &layout.channel(static_cast<std::size_t>(index));
+    if (auto channel = run.find(path)) return channel;
   }
-  return nullptr;
+  return std::nullopt;
 }
 
 std::vector<RunCurve> curves_of(const RunReader& run, const results::Channel& channel,
@@ -80,14 +79,14 @@ std::vector<std::string> sensor_names(const RunReader& run) {
 }
 
 std::vector<RunCurve> find_curves(const RunReader& run, const std::string& name) {
-  if (const results::Channel* channel = find_channel_called(run, name)) {
+  if (const auto channel = find_channel_called(run, name)) {
     return curves_of(run, *channel, name);
   }
   const std::size_t dot = name.rfind('.');
   if (dot != name.npos) {
     const std::string whole = name.substr(0, dot);
     const std::string component = name.substr(dot + 1);
-    if (const results::Channel* channel = find_channel_called(run, whole)) {
+    if (const auto channel = find_channel_called(run, whole)) {
       std::vector<RunCurve> curves = curves_of(run, *channel, whole);
       if (component == "norm" && curves.size() > 1) return {length_of(curves, whole)};
       for (RunCurve& curve : curves) {

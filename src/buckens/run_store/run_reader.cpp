@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <numeric>
 #include <system_error>
 
@@ -42,6 +43,18 @@ std::vector<double> read_up_to(const Hdf5File& file, const std::string& path, do
     break;
   }
   return times;
+}
+
+/// Calls a function with the first index and the number of each stretch of neighbouring records:
+/// they are read together.
+void each_stretch(std::span<const std::size_t> records,
+                  const std::function<void(std::size_t first, std::size_t count)>& read) {
+  for (std::size_t i = 0; i < records.size();) {
+    std::size_t count = 1;
+    while (i + count < records.size() && records[i + count] == records[i] + count) ++count;
+    read(i, count);
+    i += count;
+  }
 }
 
 }  // namespace
@@ -144,7 +157,51 @@ std::vector<double> RunReader::read(std::string_view path) const {
 
 std::vector<double> RunReader::read(std::string_view path,
                                     std::span<const std::size_t> records) const {
+  if (layout_.find(path) < 0) {
+    if (const auto part = find_part(path)) return read_part(*part, records);
+  }
   return read_rows_of(layout_, path, records);
+}
+
+std::optional<results::Channel> RunReader::find(std::string_view path) const {
+  const int index = layout_.find(path);
+  if (index >= 0) return layout_.channel(static_cast<std::size_t>(index));
+  if (const auto part = find_part(path)) return part->channel;
+  return std::nullopt;
+}
+
+std::optional<results::TablePart> RunReader::find_part(std::string_view path) const {
+  const auto row_in = [](base::NameIndex& index, const auto& list, const std::string& name) {
+    const auto* found = index.find(list, name);
+    return found == nullptr ? -1 : static_cast<int>(found - list.data());
+  };
+  return results::find_in_tables(
+      layout_, path,
+      [&](const std::string& name) { return row_in(bodies_, geometry_.bodies, name); },
+      [&](const std::string& name) { return row_in(joints_, geometry_.joints, name); });
+}
+
+std::vector<double> RunReader::read_part(const results::TablePart& part,
+                                         std::span<const std::size_t> records) const {
+  const results::Channel& table = layout_.channel(part.table);
+  const RowWish wish{table.path,
+                     static_cast<std::size_t>(table.shape[0]),
+                     static_cast<std::size_t>(table.shape[1]),
+                     part.row,
+                     part.first,
+                     part.channel.size()};
+  return table_rows_.get(wish, records,
+                         [&](const std::string& path, std::span<const std::size_t> wanted,
+                             std::size_t first, std::size_t count) {
+                           const Hdf5Dataset dataset = open_channel(file_, table);
+                           const std::size_t size = count * wish.width;
+                           std::vector<double> values(wanted.size() * size);
+                           each_stretch(wanted, [&](std::size_t k, std::size_t rows) {
+                             read_rows(file_, dataset, '/' + path, wanted[k], rows, {first, count},
+                                       values.data() + k * size);
+                           });
+                           return values;
+                         });
 }
 
 std::vector<double> RunReader::read_fields(std::string_view path,
@@ -173,13 +230,9 @@ std::vector<double> RunReader::read_rows_of(const results::RecordLayout& layout,
   const Hdf5Dataset dataset = open_channel(file_, layout.channel(static_cast<std::size_t>(index)));
   const std::size_t size = dataset.row_size;
   std::vector<double> values(records.size() * size);
-  // Neighbouring records are read together.
-  for (std::size_t i = 0; i < records.size();) {
-    std::size_t count = 1;
-    while (i + count < records.size() && records[i + count] == records[i] + count) ++count;
-    read_rows(file_, dataset, place, records[i], count, values.data() + i * size);
-    i += count;
-  }
+  each_stretch(records, [&](std::size_t k, std::size_t count) {
+    read_rows(file_, dataset, place, records[k], count, values.data() + k * size);
+  });
   return values;
 }
 

@@ -5,16 +5,20 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "buckens/base/name_index.h"
 #include "buckens/results/channel.h"
 #include "buckens/results/geometry.h"
+#include "buckens/results/motion_tables.h"
 #include "buckens/run_store/hdf5_file.h"
 #include "buckens/run_store/hdf5_undo.h"
 #include "buckens/run_store/summary_json.h"
+#include "buckens/run_store/table_rows.h"
 
 namespace buckens::run_store {
 
@@ -43,8 +47,11 @@ class RunReader {
   const std::string& title() const { return title_; }
   const std::string& version() const { return version_; }
   const results::Geometry& geometry() const { return geometry_; }
-  /// The channels, in alphabetical order of their paths.
+  /// The channels as they are stored, in alphabetical order of their paths.
   const results::RecordLayout& layout() const { return layout_; }
+  /// A channel by its path, nothing if there is none. Bodies and joints have channels of their own
+  /// here, "bodies/rod/pose", also where thousands of them stand in tables.
+  std::optional<results::Channel> find(std::string_view path) const;
 
   /// The channels of sensors in the order of the model file, which is that of the columns of
   /// sensors.csv; in alphabetical order if that file is missing.
@@ -53,7 +60,7 @@ class RunReader {
   std::size_t num_records() const { return times_.size(); }
   const std::vector<double>& times() const { return times_; }  ///< [s], increasing
 
-  /// All values of a channel, record after record, each in row-major order.
+  /// All values of a channel that find() knows, record after record, each in row-major order.
   /// @throws IoError if there is no such channel or it cannot be read
   std::vector<double> read(std::string_view path) const;
   /// The same for some records, given by their increasing indices.
@@ -81,6 +88,9 @@ class RunReader {
   std::vector<double> read_times(const std::string& path, double last) const;
   std::vector<double> read_rows_of(const results::RecordLayout& layout, std::string_view path,
                                    std::span<const std::size_t> rows) const;
+  std::optional<results::TablePart> find_part(std::string_view path) const;
+  std::vector<double> read_part(const results::TablePart& part,
+                                std::span<const std::size_t> records) const;
 
   std::filesystem::path directory_;
   std::string summary_text_, title_, version_;
@@ -89,6 +99,8 @@ class RunReader {
   results::Geometry geometry_;
   results::RecordLayout layout_, field_layout_;
   std::vector<double> times_, field_times_;
+  mutable base::NameIndex bodies_, joints_;  // of those of the geometry
+  mutable TableRows table_rows_;
 };
 
 }  // namespace buckens::run_store

@@ -13,6 +13,7 @@ namespace buckens::run_store {
 
 namespace {
 
+constexpr std::size_t kPoseSize = 7;   // position and quaternion
 constexpr Eigen::Index kNodeSize = 6;  // translations and rotations
 
 /// Every instant that may be taken.
@@ -57,11 +58,21 @@ std::vector<Instant> choose_instants(const RunReader& run, const InstantChoice& 
   return out;
 }
 
-spatial::Pose pose_of(const RunReader& run, const std::string& body, std::size_t record) {
+std::vector<spatial::Pose> poses_of(const RunReader& run, const std::string& body,
+                                    std::span<const std::size_t> records) {
+  std::vector<spatial::Pose> out(records.size());
   const std::string path = fmt::format("bodies/{}/pose", body);
-  if (find_channel(run.layout(), path) == nullptr) return {};
-  const std::vector<double> v = run.read(path, std::array{record});
-  return {{v[0], v[1], v[2]}, Eigen::Quaterniond(v[3], v[4], v[5], v[6])};
+  if (!run.find(path)) return out;
+  const std::vector<double> all = run.read(path, records);
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const double* v = all.data() + k * kPoseSize;
+    out[k] = {{v[0], v[1], v[2]}, Eigen::Quaterniond(v[3], v[4], v[5], v[6])};
+  }
+  return out;
+}
+
+spatial::Pose pose_of(const RunReader& run, const std::string& body, std::size_t record) {
+  return poses_of(run, body, std::array{record}).front();
 }
 
 Eigen::Matrix3Xd displacements_of(const RunReader& run, const results::GeometryBody& body,

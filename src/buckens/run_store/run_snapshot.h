@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,11 @@ struct InstantChoice {
 /// @throws InputError if a time is outside the run, IoError if the run has no records
 std::vector<Instant> choose_instants(const RunReader& run, const InstantChoice& choice);
 
-/// Pose of a body's frame. Bodies that were not recorded are at the origin.
+/// Poses of a body's frame in some records, given by their increasing indices. Bodies that were not
+/// recorded are at the origin.
+std::vector<spatial::Pose> poses_of(const RunReader& run, const std::string& body,
+                                    std::span<const std::size_t> records);
+/// The same in one record.
 spatial::Pose pose_of(const RunReader& run, const std::string& body, std::size_t record);
 
 /// Displacements of all nodes in body axes [m]; zero if none were recorded.

@@ -2,6 +2,7 @@
 #include "buckens/analysis/simulation/simulation.h"
 
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,12 +17,11 @@ namespace {
 // Ends of steps are counted, requested times are decimal numbers.
 constexpr double kSameTime = 1e-9;
 
-std::size_t find_whole(const model::Model& model, const std::string& name) {
-  const int found = model.find_whole(name);
-  if (found >= 0) return static_cast<std::size_t>(found);
-  std::vector<std::string> known;
-  for (const model::WholeBody& whole : model.wholes) known.push_back(whole.name);
-  throw InputError(fmt::format("there is no body \"{}\".{}", name, base::suggestion(name, known)));
+/// Place of an entry in its list, −1 if there is none of this name.
+template <class T>
+int place_in(const std::vector<T>& list, base::NameIndex& index, const std::string& name) {
+  const T* found = index.find(list, name);
+  return found == nullptr ? -1 : static_cast<int>(found - list.data());
 }
 
 }  // namespace
@@ -70,24 +70,49 @@ const model::State& Simulation::state() const { return run_->state(); }
 
 body::FrameMotion Simulation::frame(const std::string& body) const {
   const model::Model& model = built().model;
-  body::FrameMotion out =
-      model::whole_motion(model, model.wholes[find_whole(model, body)], state());
+  body::FrameMotion out = model::whole_motion(model, model.wholes[find_whole(body)], state());
   out.X_WB.p += model.origin;
   return out;
 }
 
 Eigen::Map<const Eigen::VectorXd> Simulation::values(const std::string& path) const {
   const results::RecordLayout& known_paths = layout();
+  const results::TablePart part = find_channel(path);
+  return {run_->observe().data() + known_paths.offset(part.table) + part.offset(known_paths),
+          static_cast<Eigen::Index>(part.channel.size())};
+}
+
+std::size_t Simulation::find_whole(const std::string& body) const {
+  const model::Model& model = built().model;
+  const int found = place_in(model.wholes, bodies_, body);
+  if (found >= 0) return static_cast<std::size_t>(found);
+  std::vector<std::string> known;
+  for (const model::WholeBody& whole : model.wholes) known.push_back(whole.name);
+  throw InputError(fmt::format("there is no body \"{}\".{}", body, base::suggestion(body, known)));
+}
+
+results::Channel Simulation::channel(const std::string& path) const {
+  return find_channel(path).channel;
+}
+
+/// A channel by itself counts as the only part of its table.
+results::TablePart Simulation::find_channel(const std::string& path) const {
+  const results::RecordLayout& known_paths = layout();
   const int found = known_paths.find(path);
-  if (found < 0) {
-    std::vector<std::string> known;
-    for (const results::Channel& channel : known_paths.channels()) known.push_back(channel.path);
-    throw InputError(
-        fmt::format("nothing is recorded as \"{}\".{}", path, base::suggestion(path, known)));
+  if (found >= 0) {
+    const auto index = static_cast<std::size_t>(found);
+    return {index, 0, 0, known_paths.channel(index)};
   }
-  const auto index = static_cast<std::size_t>(found);
-  return {run_->observe().data() + known_paths.offset(index),
-          static_cast<Eigen::Index>(known_paths.channel(index).size())};
+  const model::Model& model = built().model;
+  const auto part = results::find_in_tables(
+      known_paths, path,
+      [&](const std::string& name) { return place_in(model.wholes, bodies_, name); },
+      [&](const std::string& name) { return place_in(model.joints, joints_, name); });
+  if (part) return *part;
+  std::vector<std::string> known;
+  for (const results::Channel& channel : known_paths.channels()) known.push_back(channel.path);
+  throw InputError(
+      fmt::format("nothing is recorded as \"{}\".{}", path, base::suggestion(path, known)));
 }
 
 const results::RecordLayout& Simulation::layout() const { return run_->layout(); }
@@ -99,11 +124,11 @@ Eigen::Map<const Eigen::VectorXd> Simulation::sensor(const std::string& name) co
 double Simulation::signal(const std::string& name) const { return run_->signal(name); }
 
 Eigen::Map<const Simulation::NodalMatrix> Simulation::displacements(const std::string& body) const {
-  return run_->nodal_views().displacements(find_whole(built().model, body), state());
+  return run_->nodal_views().displacements(find_whole(body), state());
 }
 
 Eigen::Map<const Simulation::NodalMatrix> Simulation::velocities(const std::string& body) const {
-  return run_->nodal_views().velocities(find_whole(built().model, body), state());
+  return run_->nodal_views().velocities(find_whole(body), state());
 }
 
 void Simulation::set_load(const std::string& load, const Eigen::Vector3d& value) {

@@ -8,10 +8,12 @@
 #include <Eigen/Core>
 
 #include "buckens/analysis/simulation/step_view.h"
+#include "buckens/base/name_index.h"
 #include "buckens/base/saved_values.h"
 #include "buckens/linalg/solve_exchange.h"
 #include "buckens/model/build/build_model.h"
 #include "buckens/model/state.h"
+#include "buckens/results/motion_tables.h"
 #include "buckens/results/record_sink.h"
 
 namespace buckens::analysis {
@@ -109,7 +111,10 @@ class Simulation {
   /// @return a view with a fixed address, updated by the next call for any path
   /// @throws InputError naming the nearest path
   Eigen::Map<const Eigen::VectorXd> values(const std::string& path) const;
-  /// Everything that values() knows: paths, units, extents.
+  /// What values() finds under a path. Bodies and joints have channels of their own here also
+  /// where thousands of them are recorded in tables. @throws InputError as values()
+  results::Channel channel(const std::string& path) const;
+  /// Everything that is recorded: paths, units, extents.
   const results::RecordLayout& layout() const;
   /// Current values of a sensor of the model.
   Eigen::Map<const Eigen::VectorXd> sensor(const std::string& name) const;
@@ -143,6 +148,10 @@ class Simulation {
   void restore(const base::SavedValues& saved, Leeway leeway = Leeway::none);
 
  private:
+  std::size_t find_whole(const std::string& body) const;
+  results::TablePart find_channel(const std::string& path) const;
+
+  mutable base::NameIndex bodies_, joints_;  // of the wholes and joints of the model
   std::shared_ptr<const model::BuiltModel> kept_;
   std::unique_ptr<SimulationRun> run_;
 };
