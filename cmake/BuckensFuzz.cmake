@@ -76,6 +76,7 @@ buckens_fuzz(matrix 4 mesh_io/matrix/file.cpp mesh_io/matrix/node_table.cpp)
 buckens_fuzz(model_file 8 model_file/yaml_tree.cpp model_file/values.cpp)
 buckens_fuzz(results 8 run_store/run_reader.cpp run_store/run_channels.cpp run_store/run_snapshot.cpp
              run_store/run_curves.cpp run_store/run_comparison.cpp run_store/hdf5_geometry.cpp
+             run_store/hdf5_geometry_tables.cpp run_store/table_rows.cpp
              run_store/hdf5_objects.cpp run_store/hdf5_reading.cpp run_store/hdf5_sections.cpp
              run_store/hdf5_texts.cpp run_store/basis_files.cpp files/isolated_work.cpp
              exports/*.cpp page/*.cpp)

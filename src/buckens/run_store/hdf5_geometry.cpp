@@ -10,7 +10,9 @@
 
 #include <fmt/format.h>
 
+#include "buckens/base/name_index.h"
 #include "buckens/run_store/hdf5_contact_shapes.h"
+#include "buckens/run_store/hdf5_geometry_tables.h"
 #include "buckens/run_store/hdf5_reading.h"
 #include "buckens/run_store/hdf5_sections.h"
 #include "buckens/run_store/hdf5_values.h"
@@ -294,7 +296,14 @@ int index_of(const std::vector<Named>& list, const std::string& name) {
   return at == list.end() ? -1 : static_cast<int>(at - list.begin());
 }
 
-GeometryJoint read_joint(const Hdf5File& file, const Geometry& geometry, const std::string& name) {
+/// The same of bodies, of which there may be thousands.
+int body_called(const Geometry& geometry, base::NameIndex& index, const std::string& name) {
+  const GeometryBody* found = index.find(geometry.bodies, name);
+  return found == nullptr ? -1 : static_cast<int>(found - geometry.bodies.data());
+}
+
+GeometryJoint read_joint(const Hdf5File& file, const Geometry& geometry, base::NameIndex& index,
+                         const std::string& name) {
   const std::string path = fmt::format("{}/{}", kJoints, name);
   GeometryJoint joint;
   joint.name = name;
@@ -308,7 +317,8 @@ GeometryJoint read_joint(const Hdf5File& file, const Geometry& geometry, const s
   joint.axis = vector_at(axis, 0);
   for (std::size_t i = 0; i < 2; ++i) {
     GeometrySide& side = joint.between[i];
-    side.body = bodies[i] == kGround ? results::kGroundBody : index_of(geometry.bodies, bodies[i]);
+    side.body =
+        bodies[i] == kGround ? results::kGroundBody : body_called(geometry, index, bodies[i]);
     expect(file, path, side.body >= 0 || bodies[i] == kGround);
     if (side.body >= 0 && !markers[i].empty()) {
       const auto& body = geometry.bodies[static_cast<std::size_t>(side.body)];
@@ -326,13 +336,14 @@ std::vector<Eigen::Vector3d> vectors_at(const Hdf5File& file, const std::string&
   return out;
 }
 
-GeometryLoad read_load(const Hdf5File& file, const Geometry& geometry, const std::string& name) {
+GeometryLoad read_load(const Hdf5File& file, const Geometry& geometry, base::NameIndex& index,
+                       const std::string& name) {
   const std::string path = fmt::format("{}/{}", kLoads, name);
   GeometryLoad load;
   load.name = name;
   load.kind = read_string(file, path, "kind");
   const std::string body = read_string(file, path, "body");
-  load.body = body == kGround ? results::kGroundBody : index_of(geometry.bodies, body);
+  load.body = body == kGround ? results::kGroundBody : body_called(geometry, index, body);
   expect(file, path, load.body >= 0 || body == kGround);
   const std::vector<int> follows = read_ints(file, path, "follows");
   expect(file, path, follows.size() == 1);
@@ -355,18 +366,22 @@ GeometryLoad read_load(const Hdf5File& file, const Geometry& geometry, const std
 
 }  // namespace
 
-void write_geometry(const Hdf5File& file, const Geometry& geometry) {
+void write_geometry(const Hdf5File& file, const Geometry& geometry, bool in_tables) {
   create_group(file, kRoot);
   write_attribute(file, kRoot, "gravity", numbers(geometry.gravity));
   write_attribute(file, kRoot, "gravity_unit", std::string("m/s^2"));
   write_attribute(file, kRoot, "planar", geometry.planar);
-  create_group(file, kBodies);
-  create_group(file, kJoints);
-  create_group(file, kLoads);
   int index = 0;
-  for (const GeometryBody& body : geometry.bodies) write_body(file, index++, body);
-  index = 0;
-  for (const GeometryJoint& joint : geometry.joints) write_joint(file, index++, geometry, joint);
+  if (in_tables) {
+    write_geometry_tables(file, geometry);
+  } else {
+    create_group(file, kBodies);
+    create_group(file, kJoints);
+    for (const GeometryBody& body : geometry.bodies) write_body(file, index++, body);
+    index = 0;
+    for (const GeometryJoint& joint : geometry.joints) write_joint(file, index++, geometry, joint);
+  }
+  create_group(file, kLoads);
   index = 0;
   for (const GeometryLoad& load : geometry.loads) write_load(file, index++, geometry, load);
   write_shapes(file, geometry);
@@ -380,14 +395,17 @@ Geometry read_geometry(const Hdf5File& file) {
   expect(file, kRoot, gravity.size() == 3);
   geometry.gravity = vector_at(gravity, 0);
   geometry.planar = read_string(file, kRoot, "planar");
-  for (const std::string& name : in_order(file, kBodies)) {
-    geometry.bodies.push_back(read_body(file, name));
-  }
-  for (const std::string& name : in_order(file, kJoints)) {
-    geometry.joints.push_back(read_joint(file, geometry, name));
+  base::NameIndex bodies;
+  if (!read_geometry_tables(file, geometry)) {
+    for (const std::string& name : in_order(file, kBodies)) {
+      geometry.bodies.push_back(read_body(file, name));
+    }
+    for (const std::string& name : in_order(file, kJoints)) {
+      geometry.joints.push_back(read_joint(file, geometry, bodies, name));
+    }
   }
   for (const std::string& name : in_order(file, kLoads)) {
-    geometry.loads.push_back(read_load(file, geometry, name));
+    geometry.loads.push_back(read_load(file, geometry, bodies, name));
   }
   read_shapes(file, geometry);
   read_cables(file, geometry);

@@ -18,8 +18,11 @@ namespace buckens::run_store {
 ///         [M×4]
 ///     /geometry/joints/<joint>         attributes index, type, axis [3], bodies [2], markers [2]
 ///         (names; the ground is "ground", no marker is ""), positions [2×3]
+/// @param in_tables bodies and joints stand in tables (hdf5_geometry_tables.h); all bodies are then
+/// rigid
 /// @throws IoError
-void write_geometry(const Hdf5File& file, const results::Geometry& geometry);
+void write_geometry(const Hdf5File& file, const results::Geometry& geometry,
+                    bool in_tables = false);
 
 /// Reads what write_geometry wrote. @throws IoError
 results::Geometry read_geometry(const Hdf5File& file);

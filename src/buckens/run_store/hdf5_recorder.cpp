@@ -5,6 +5,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/files/output_file.h"
+#include "buckens/results/motion_tables.h"
 #include "buckens/run_store/hdf5_geometry.h"
 #include "buckens/run_store/hdf5_values.h"
 
@@ -32,7 +33,7 @@ Hdf5Recorder::Hdf5Recorder(const std::filesystem::path& path, files::WriteProces
     write_attribute(file_, "/", "format", kResultsFormat);
     write_attribute(file_, "/", "version", version);
     write_attribute(file_, "/", "title", title);
-    write_geometry(file_, geometry);
+    write_geometry(file_, geometry, layout.find(results::kMotionsPath) >= 0);
     table_ = Hdf5Table(file_, layout);
     if (fields != nullptr) {
       fields_ = Hdf5Table(file_, fields->fields, "fields/time", H5T_IEEE_F32LE);
