@@ -8,6 +8,7 @@
 #include "cli/output.h"
 
 #include "buckens/analysis/simulation/turn.h"
+#include "buckens/files/json_member.h"
 #include "buckens/files/vector_json.h"
 
 namespace buckens::cli {
@@ -119,7 +120,9 @@ Json json_of(const BodyReport& body) {
 
 std::string report_json(const std::string& title, const ModelReport& report) {
   Json bodies = Json::object();
-  for (const BodyReport& body : report.bodies) bodies[body.name] = json_of(body);
+  for (const BodyReport& body : report.bodies) {
+    files::add_member(bodies, body.name, json_of(body));
+  }
   return to_text({{"title", title},
                   {"bodies", std::move(bodies)},
                   {"joints", report.joints},

@@ -18,6 +18,9 @@ namespace {
 
 using Entries = std::vector<std::pair<std::string, std::string>>;
 
+// Of rigid bodies there is nothing to tell but their names.
+constexpr std::size_t kMostRigidRows = 20;
+
 std::string headline(const results::RunSummary& summary) {
   const double stepping = summary.wall_seconds.stepping;
   const std::string rate =
@@ -54,9 +57,10 @@ std::string bodies_table(const results::RunSummary& summary) {
       rows.front().emplace_back(title);
     }
   }
+  std::size_t rigid = 0;
   for (const results::BodyEffort& body : summary.bodies) {
     if (body.dof == 0) {
-      rows.push_back({body.name, "rigid"});
+      if (++rigid <= kMostRigidRows) rows.push_back({body.name, "rigid"});
       continue;
     }
     const std::string per_step = summary.steps > 0
@@ -70,6 +74,9 @@ std::string bodies_table(const results::RunSummary& summary) {
     rows.back().push_back(fmt::format("{:.1f}", *measure(body, "iterations_per_solve")));
     rows.back().push_back(fmt::format("{:.3g}", measure(body, "seconds_per_solve").value_or(0.0)));
     rows.back().push_back(fmt::format("{:.3g}", measure(body, "solver_bytes").value_or(0.0) / 1e9));
+  }
+  if (rigid > kMostRigidRows) {
+    rows.push_back({fmt::format("{} more", rigid - kMostRigidRows), "rigid"});
   }
   return text_table(rows);
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "buckens/base/errors.h"
+#include "buckens/files/json_member.h"
 #include "buckens/results/unassessed.h"
 
 namespace buckens::run_store {
@@ -43,7 +44,7 @@ Json bodies_json(const std::vector<results::BodyEffort>& bodies) {
     if (body.recycled > 0) entry["recycled"] = body.recycled;
     if (!body.coupling.empty()) entry["coupling"] = body.coupling;
     for (const auto& [name, value] : body.measures) entry[name] = value;
-    all[body.name] = std::move(entry);
+    files::add_member(all, body.name, std::move(entry));
   }
   return all;
 }
@@ -185,12 +186,13 @@ std::string summary_json(const results::RunSummary& summary, const std::string& 
 }
 
 bool is_summary_json(std::string_view text) {
-  const Json json = Json::parse(text, nullptr, false);
-  return json.is_object() && json.value("program", Json()) == "buckens" && json.contains("status");
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  return json.is_object() && json.value("program", nlohmann::json()) == "buckens" &&
+         json.contains("status");
 }
 
 RunStatus status_in(std::string_view text, const std::string& where) {
-  const Json json = Json::parse(text, nullptr, false);
+  const auto json = nlohmann::json::parse(text, nullptr, false);
   if (json.is_object() && json.contains("status")) {
     for (const RunStatus status :
          {RunStatus::starting, RunStatus::running, RunStatus::finished, RunStatus::interrupted}) {
