@@ -72,7 +72,12 @@ class Bodies(Mapping[str, Body]):
     """Bodies by name."""
 
     def __init__(self, core: _core.Simulation, names: List[str]) -> None:
+        self._core = core
         self._bodies = {name: Body(core, name) for name in names}
+
+    def belong_to(self, core: _core.Simulation) -> bool:
+        """Whether they are those of this simulation."""
+        return self._core is core
 
     def __getitem__(self, name: str) -> Body:
         if name not in self._bodies:

@@ -66,7 +66,9 @@ class ResultMesh:
 
 
 def read_mesh(file: Any, body: str) -> "ResultMesh":
-    """The undeformed mesh of a body, from an open results.h5."""
+    """The undeformed mesh of a body, from an open results.h5. Rigid bodies have none."""
+    if "geometry/tables" in file:
+        return ResultMesh(np.empty((0, 3)), {})
     geometry = file[f"geometry/bodies/{body}"]
     cells: Dict[str, List[Numbers]] = {}
     if "elements" in geometry and len(geometry["elements"]):

@@ -10,7 +10,7 @@ import json
 import os
 import pathlib
 import tempfile
-from typing import Any, Dict, Iterator, List, Optional
+from typing import Any, Dict, Iterator, List, Optional, Tuple
 
 import numpy as np
 
@@ -18,7 +18,11 @@ from .curve import Curve
 from .errors import InputError, IoError
 from .model import PathLike
 from .result_mesh import ResultMesh, placed, read_mesh
+from .run_tables import RunTables
 from .verbs import view as write_page
+
+# So many names are listed in a message; of more the one that is most alike.
+_FEW = 20
 
 
 class RunPage(str):
@@ -39,6 +43,7 @@ class Results:
 
     def __init__(self, directory: PathLike) -> None:
         self.directory = pathlib.Path(directory)
+        self._tables = RunTables()
         if not (self.directory / "results.h5").is_file():
             raise IoError(f"{self.directory}: there is no results.h5 in it; expected a directory that "
                           "`buckens run` or buckens.Simulation(model, out=...) has written")
@@ -91,7 +96,11 @@ class Results:
 
     @property
     def quantities(self) -> List[str]:
-        """Paths of everything recorded at each instant."""
+        """Paths of everything recorded at each instant.
+
+        Of rigid models of thousands of parts, all bodies are "motions" and all joints "reactions". Each has a path of
+        its own as well, as in other runs: ``r["bodies/link_7/pose"]``.
+        """
         with self._file() as file:
             return [path for path in _datasets(file) if _is_recorded(path)]
 
@@ -110,8 +119,7 @@ class Results:
         """
         with self._file() as file:
             rows = len(file["time"])
-            path, component = _find(file, name)
-            data = file[path]
+            path, data, component = self._find(file, name)
             components = [_text(text) for text in data.attrs.get("components", [])]
             values = data[:rows]
             if component:
@@ -171,8 +179,10 @@ class Results:
             the body.
         """
         with self._file() as file:
-            if f"geometry/bodies/{body}" not in file:
-                raise InputError(f"there is no body {body!r}; the run has {', '.join(file['geometry/bodies'])}")
+            known = self._tables.rows(file, "bodies")
+            if body not in known:
+                hint = f"the run has {', '.join(known)}" if len(known) <= _FEW else _nearest(body, list(known))
+                raise InputError(f"there is no body {body!r}; {hint}")
             mesh = read_mesh(file, body)
             if t is None:
                 return mesh
@@ -182,7 +192,22 @@ class Results:
             row = int(np.argmin(np.abs(times - t)))
             path = f"bodies/{body}/displacement"
             displacement = file[path][row][:, :3] if path in file else np.zeros_like(mesh.points)
-            return placed(mesh, file[f"bodies/{body}/pose"][row], displacement)
+            pose = self._tables.find(file, f"bodies/{body}/pose")
+            if pose is None:
+                raise InputError(f"{self.directory}: no pose of {body!r} is recorded")
+            return placed(mesh, pose[row], displacement)
+
+    def _find(self, file: Any, name: str) -> Tuple[str, Any, str]:
+        """The path of what is recorded as `name`, its values, and the component asked for or nothing."""
+        stem, dot, component = name.rpartition(".")
+        for whole, part in [(name, "")] + ([(stem, component)] if dot else []):
+            for path in (f"sensors/{whole}", whole):
+                data = self._tables.find(file, path)
+                if data is not None:
+                    return path, data, part
+        known = [path[len("sensors/"):] if path.startswith("sensors/") else path
+                 for path in _datasets(file) if _is_recorded(path)]
+        raise InputError(f"nothing is recorded as {name!r}; {_nearest(name, known)}")
 
     # ---- to other packages
     def to_pandas(self, *names: str) -> Any:
@@ -282,18 +307,7 @@ def _datasets(file: Any) -> List[str]:
     return out
 
 
-def _find(file: Any, name: str) -> "tuple[str, str]":
-    """The path of a data set, and the component asked for or nothing."""
-    for path in (f"sensors/{name}", name):
-        if path in file and _is_dataset(file[path]):
-            return path, ""
-    stem, dot, component = name.rpartition(".")
-    if dot:
-        for path in (f"sensors/{stem}", stem):
-            if path in file and _is_dataset(file[path]):
-                return path, component
-    known = [path[len("sensors/"):] if path.startswith("sensors/") else path
-             for path in _datasets(file) if _is_recorded(path)]
+def _nearest(name: str, known: List[str]) -> str:
+    """A hint at the name that is most alike, or all of them."""
     near = difflib.get_close_matches(name, known, 1)
-    hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(known)}"
-    raise InputError(f"nothing is recorded as {name!r}; {hint}")
+    return f"did you mean {near[0]!r}?" if near else f"there are {', '.join(known)}"

@@ -56,6 +56,7 @@ class Simulation:
             raise InputError(f"threads: expected a whole number from 1 to 256, found {threads!r}")
         self._options = ("" if out is None else os.fspath(out), threads, record, _start_from)
         self._was_seen = False
+        self._bodies: Optional[Bodies] = None
         self._is_over = False
         self._prepare()
 
@@ -298,7 +299,10 @@ class Simulation:
         """Bodies by name."""
         core = self._core
         self._was_seen = True
-        return Bodies(core, self._model.bodies)
+        # Made once: of thousands of bodies each is asked for by itself.
+        if self._bodies is None or not self._bodies.belong_to(core):
+            self._bodies = Bodies(core, self._model.bodies)
+        return self._bodies
 
     @property
     def sensors(self) -> Values:
