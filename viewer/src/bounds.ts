@@ -31,13 +31,26 @@ class Box {
   }
 }
 
-/** Box around all bodies and joints at about 200 of the stored frames. */
+/** So many places of bodies and joints are looked at. */
+const kLooks = 400_000;
+
+/** Every so many-th number below `count`, and the last one. */
+function everyOf(count: number, step: number): number[] {
+  const numbers = [];
+  for (let index = 0; index < count; index += step) numbers.push(index);
+  if (count > 0 && numbers.at(-1) !== count - 1) numbers.push(count - 1);
+  return numbers;
+}
+
+/** Box around all bodies and joints at about 200 of the stored frames, fewer if there are thousands of them. */
 export function runBounds(run: Run): Bounds {
   const motion = new Motion(run);
   const whole = new Box();
   let machine = 0;
-  const step = Math.max(1, Math.floor(run.times.length / 200));
-  for (let index = 0; index < run.times.length; index += step) {
+  const frames = run.times.length;
+  const looks = Math.min(200, Math.max(10, Math.floor(kLooks / (run.bodies.length + run.joints.length + 1))));
+  const step = Math.max(1, Math.floor(frames / looks));
+  for (const index of everyOf(frames, step)) {
     motion.setPlace({ index, fraction: 0 });
     const now = new Box();
     const add = (p: Triple) => (now.add(p), whole.add(p));

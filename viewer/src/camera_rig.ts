@@ -43,6 +43,22 @@ export class CameraRig {
     return this.orthographic ? this.parallel : this.perspective;
   }
 
+  /** The point around which it turns, scene. */
+  get target(): THREE.Vector3 {
+    return this.controls.target;
+  }
+
+  /** What is in the picture, in the coordinates of an object of the scene. */
+  frustumOf(object: THREE.Object3D): THREE.Frustum {
+    const { camera } = this;
+    camera.updateMatrixWorld();
+    object.updateWorldMatrix(true, false);
+    const matrix = new THREE.Matrix4()
+      .multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse)
+      .multiply(object.matrixWorld);
+    return new THREE.Frustum().setFromProjectionMatrix(matrix);
+  }
+
   private bind(target: THREE.Vector3): void {
     this.controls?.dispose();
     this.controls = new OrbitControls(this.camera, this.element);

@@ -9,6 +9,9 @@ import type { SectionChoice, TracePoint, ViewOptions } from './view_options';
 const kEdges: EdgeChoice[] = ['auto', 'none', 'outline', 'mesh', 'wireframe'];
 const kAxes: SectionChoice['axis'][] = ['off', 'x', 'y', 'z'];
 
+/** Points among which one is chosen, from which on the list is made when it is needed. */
+const kManyPoints = 1000;
+
 /** How bodies are drawn: edges, a section, the trace of a point. Opens over the view. */
 export class DisplayPanel {
   readonly root: HTMLDetailsElement;
@@ -110,10 +113,21 @@ export class DisplayPanel {
     const points: TracePoint[] = run.bodies.flatMap(({ name, markers }) =>
       [...markers.map((marker) => marker.name), ''].map((marker) => ({ body: name, marker })),
     );
-    points.forEach(({ body, marker }, value) => {
-      const text = marker ? `${body}/${marker}` : `${body} (mass centre)`;
-      select.append(el('option', { value }, text));
-    });
+    const fill = () => {
+      select.append(
+        ...points.map(({ body, marker }, value) =>
+          el('option', { value }, marker ? `${body}/${marker}` : `${body} (mass centre)`),
+        ),
+      );
+    };
+    let isFilled = false;
+    const fillOnce = () => {
+      if (!isFilled) fill();
+      isFilled = true;
+    };
+    // Tens of thousands of entries take a while: they are made once somebody looks for them.
+    if (points.length <= kManyPoints) fill();
+    else for (const event of ['pointerenter', 'focus']) select.addEventListener(event, fillOnce);
     select.addEventListener('change', () => {
       this.options.trace = select.value === '' ? null : points[Number(select.value)]!;
       this.changed();

@@ -14,11 +14,17 @@ declare module '*/tests/fixture.mjs' {
     | 'broken'
     | 'spatial'
     | 'modes'
-    | 'solid',
+    | 'solid'
+    | 'crowd',
     () => PageRun
   >;
   export function base64(numbers: ArrayLike<number>): string;
   export function ints(numbers: ArrayLike<number>): string;
   export function rows(numbers: ArrayLike<number>): PageRows;
   export function coded(numbers: ArrayLike<number>, width: number): PageRows;
+}
+
+declare module '*/tests/chain_fixture.mjs' {
+  import type { PageRun } from './page_data';
+  export function chain(links: number): PageRun;
 }

@@ -82,6 +82,10 @@ export class JointView {
     return first ? rotate(first.pose, 3, this.joint.axis) : this.joint.axis;
   }
 
+  get name(): string {
+    return this.joint.name;
+  }
+
   /** World position of the glyph and of the label. */
   position(scale: number): Triple {
     return this.motion.side(this.joint.between.at(-1)!, scale);

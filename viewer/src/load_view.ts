@@ -42,6 +42,10 @@ export class LoadView {
     }
   }
 
+  get name(): string {
+    return this.load.name;
+  }
+
   /** World position of a foot of an arrow. */
   private place(foot: number, scale: number): Triple {
     const { load, motion } = this;

@@ -1,9 +1,18 @@
-import { numNodes, type Run } from './run';
+import { numNodes } from './run';
 import type { Label } from './labels';
 import type { Motion } from './motion';
 import type { Theme } from './theme';
 import type { ViewOptions } from './view_options';
 import type { Triple } from './page_data';
+
+/** More names at once cannot be read. */
+export const kMostNames = 80;
+
+/** At most so many of a list, evenly spread. */
+export function spread<T>(list: T[], most: number): T[] {
+  const step = Math.ceil(list.length / most);
+  return step <= 1 ? list : list.filter((_, i) => i % step === 0);
+}
 
 /** A point of the scene with a label. */
 export interface Name extends Omit<Label, 'x' | 'y'> {
@@ -13,12 +22,12 @@ export interface Name extends Omit<Label, 'x' | 'y'> {
 
 /** A drawn object with a name of its own; null if it has no position. */
 export interface NamedGlyph {
+  readonly name: string;
   position(scale: number): Triple | null;
 }
 
 /** Labels of bodies, joints, loads and markers, if the objects themselves are shown. */
 export function namesOf(
-  run: Run,
   motion: Motion,
   glyphs: { joints: NamedGlyph[]; loads: NamedGlyph[] },
   theme: Theme,
@@ -33,10 +42,10 @@ export function namesOf(
   });
   for (const kind of ['joints', 'loads'] as const) {
     if (!options[kind]) continue;
-    glyphs[kind].forEach((glyph, i) => {
+    for (const glyph of glyphs[kind]) {
       const at = glyph.position(options.scale);
-      if (at) names.push({ text: run[kind][i]!.name, kind: 'joint', at });
-    });
+      if (at) names.push({ text: glyph.name, kind: 'joint', at });
+    }
   }
   if (!options.frames) return names;
   for (const body of motion.bodies) {

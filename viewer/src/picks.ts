@@ -26,19 +26,19 @@ function isAway(hit: THREE.Intersection, { mesh }: Skin): boolean {
 }
 
 /** Closest visible vertex under the ray (scene units); null for none. */
-export function pickAlong(ray: THREE.Raycaster, views: BodyView[]): Omit<Pick, 'pane'> | null {
+export function pickAlong(ray: THREE.Raycaster, views: (BodyView | null)[]): Omit<Pick, 'pane'> | null {
   let least = Infinity;
   let best: Omit<Pick, 'pane'> | null = null;
   views.forEach((view, body) => {
-    for (const skin of view.skins) {
+    for (const skin of view?.skins ?? []) {
       const hit = ray.intersectObject(skin.mesh, false).find((one) => !isAway(one, skin));
       if (!hit || hit.distance >= least) continue;
       const picked = skin.vertex(nearestCorner(hit, skin.mesh), hit.faceIndex!);
       const { node, place, element, line } = picked;
-      const known = pointOf(view.field.body, node);
+      const known = pointOf(view!.field.body, node);
       best = { ...known, body, place: place >= 0 ? place : known.place };
       if (element >= 0) best.element = element;
-      if (line >= 0) best = { ...best, line, end: endOf(view.field.body, line, node) };
+      if (line >= 0) best = { ...best, line, end: endOf(view!.field.body, line, node) };
       least = hit.distance;
     }
   });

@@ -8,10 +8,10 @@ import type { Joint, Run } from './run';
 import type { Triple } from './page_data';
 
 /** Length of the longest arrow in joint radii. */
-const kLength = 12;
-const kColor = 0x0e8f7e;
+export const kLength = 12;
+export const kReactionColor = 0x0e8f7e;
 /** Less than this share of the largest is not drawn. */
-const kLeast = 1e-3;
+export const kLeast = 1e-3;
 
 const kZ = new THREE.Vector3(0, 0, 1);
 
@@ -31,8 +31,8 @@ export function largestReactions(run: Run): LargestReactions {
     return most;
   };
   return {
-    force: Math.max(0, ...run.joints.map(({ force }) => largest(force))),
-    torque: Math.max(0, ...run.joints.map(({ torque }) => largest(torque))),
+    force: run.joints.reduce((most, { force }) => Math.max(most, largest(force)), 0),
+    torque: run.joints.reduce((most, { torque }) => Math.max(most, largest(torque)), 0),
   };
 }
 
@@ -41,8 +41,8 @@ export class ReactionView {
   readonly root = new THREE.Group();
   /** "1.2 kN"; empty where nothing acts. */
   text = '';
-  private readonly force = arrow(kColor, 0.035);
-  private readonly torque = turnArrow(kColor);
+  private readonly force = arrow(kReactionColor, 0.035);
+  private readonly torque = turnArrow(kReactionColor);
   private readonly row: number[] = [];
 
   constructor(

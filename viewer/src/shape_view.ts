@@ -60,8 +60,11 @@ function geometryOf(shape: Shape, wire: number): THREE.BufferGeometry | null {
   }
 }
 
+/** Kinds of which there may be thousands. */
+export type ShapeKey = 'sphere' | 'cylinder' | 'box';
+
 /** Whether the shape has its own axes rather than one direction. */
-function isOriented(kind: string): boolean {
+export function isOriented(kind: string): boolean {
   return ['box', 'mesh', 'sphere', 'curve', 'cam'].includes(kind);
 }
 

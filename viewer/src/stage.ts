@@ -1,6 +1,8 @@
 import * as THREE from 'three';
 import { BodyView, type GlyphSize } from './body_view';
 import { CameraRig, type Insets } from './camera_rig';
+import { Crowd } from './crowd';
+import { crowdJoint, isCrowd } from './crowd_size';
 import { CornerTriad } from './corner_triad';
 import { Grid } from './grid';
 import { ball } from './glyphs';
@@ -10,7 +12,7 @@ import { Labels, type Label } from './labels';
 import { LoadView } from './load_view';
 import { ShapeView } from './shape_view';
 import { Motion } from './motion';
-import { namesOf } from './names';
+import { kMostNames, namesOf, spread } from './names';
 import { orientationOf, type Orientation } from './orientation';
 import { largestReactions, ReactionView } from './reaction_view';
 import { pickAlong, pickName, type Pick } from './picks';
@@ -47,7 +49,9 @@ export class Stage {
   private readonly trace: Trace;
   private readonly glyphs: GlyphSize;
   private theme!: Theme;
-  private bodies: BodyView[] = [];
+  /** Null where a crowd draws the body. */
+  private bodies: (BodyView | null)[] = [];
+  private crowd: Crowd | null = null;
   private joints: JointView[] = [];
   private loads: LoadView[] = [];
   private shapes: ShapeView[] = [];
@@ -70,8 +74,9 @@ export class Stage {
     this.motion = new Motion(run);
     this.section = new Section(bounds, this.motion.bodies);
     this.orientation = orientationOf(run);
+    const joint = 0.016 * Math.min(bounds.size, bounds.machine);
     this.glyphs = {
-      joint: 0.016 * Math.min(bounds.size, bounds.machine),
+      joint: isCrowd(run) ? crowdJoint(run, joint) : joint,
       leastRadius: 0.0022 * bounds.size,
     };
     this.corner = new CornerTriad(run.gravity);
@@ -93,7 +98,8 @@ export class Stage {
   setTheme(theme: Theme): void {
     this.theme = theme;
     this.scene.background = new THREE.Color(theme.background);
-    for (const body of this.bodies) body.dispose();
+    for (const body of this.bodies) body?.dispose();
+    this.crowd?.dispose();
     this.model.clear();
     const { run, glyphs, orientation, motion } = this;
     const grid = new Grid(this.bounds, orientation, run.planar !== null, theme);
@@ -102,29 +108,35 @@ export class Stage {
       ...run.shapes.map(({ on }) => on.body),
       ...run.cables.flatMap(({ sides, radii }) => sides.filter((_, k) => radii[k] !== 0).map(({ body }) => body)),
     ]);
+    // A belt is drawn as it runs: no glyph beside it.
+    const belts = new Set(run.cables.map(({ name }) => name));
+    const joints = run.joints.filter(({ name }) => !belts.has(name));
+    const largest = largestReactions(run);
+    this.crowd = isCrowd(run)
+      ? new Crowd(motion, joints, shaped, largest, theme, glyphs.joint)
+      : null;
+    const single = this.crowd?.rest ?? { bodies: new Set(run.bodies.keys()), joints, shapes: run.shapes };
     this.bodies = motion.bodies.map((body, i) => {
+      if (!single.bodies.has(i)) return null;
       const color = theme.bodies[i % theme.bodies.length]!;
       return new BodyView(body, color, theme, glyphs, this.shading, shaped.has(i));
     });
-    this.shapes = run.shapes.map((shape) => {
+    this.shapes = single.shapes.map((shape) => {
       const color = theme.bodies[Math.max(0, shape.on.body) % theme.bodies.length]!;
       return new ShapeView(shape, motion, theme, color, this.bounds.size);
     });
     this.cables = run.cables.map((cable) => new CableView(cable, motion, theme, glyphs));
-    // A belt is drawn as it runs: no glyph beside it.
-    const belts = new Set(run.cables.map(({ name }) => name));
-    const joints = run.joints.filter(({ name }) => !belts.has(name));
-    this.joints = joints.map(
+    this.joints = single.joints.map(
       (joint) => new JointView(joint, motion, theme, glyphs, orientation.up),
     );
     this.loads = run.loads.map((load) => new LoadView(load, motion, glyphs));
-    const largest = largestReactions(run);
-    this.reactions = run.joints
+    this.reactions = (this.crowd ? [] : run.joints)
       .filter(({ force, torque }) => force || torque)
       .map((joint) => new ReactionView(joint, motion, glyphs, largest));
     this.model.add(grid.root, this.trace.root);
+    if (this.crowd) this.model.add(this.crowd.root);
     const views = [
-      ...this.bodies,
+      ...this.bodies.filter((body) => body !== null),
       ...this.shapes,
       ...this.cables,
       ...this.joints,
@@ -161,6 +173,7 @@ export class Stage {
     this.motion.setTime(t);
     let [low, high] = [Infinity, -Infinity];
     this.bodies.forEach((body, i) => {
+      if (!body) return;
       const planes = this.section.planes(options.section, i);
       const seeThrough = options.colors && options.field.cut === 'hide';
       body.update(options, { edges: options.edges, planes, seeThrough });
@@ -180,6 +193,10 @@ export class Stage {
         view.root.visible = shown;
         if (shown) view.update(options.scale);
       }
+    }
+    if (this.crowd) {
+      const target = this.model.worldToLocal(this.rig.target.clone()).toArray();
+      this.crowd.update(options, this.pixelSize(target), this.rig.frustumOf(this.model));
     }
     this.cost.update = performance.now() - began;
   }
@@ -280,11 +297,18 @@ export class Stage {
       }
     }
     if (options.labels) {
-      const { joints, loads } = this;
-      for (const name of namesOf(this.run, this.motion, { joints, loads }, this.theme, options)) {
-        labels.push({ ...name, ...this.project(name.at) });
-      }
+      labels.push(...this.nameLabels(options));
     }
     this.labels.show(labels, this.width, this.height);
+  }
+
+  /** Names within the picture; of more than can be read some, evenly spread. */
+  private nameLabels(options: ViewOptions): Label[] {
+    const { loads, motion } = this;
+    const joints = this.crowd?.namedJoints() ?? this.joints;
+    const all = namesOf(motion, { joints, loads }, this.theme, options)
+      .map((name) => ({ ...name, ...this.project(name.at) }))
+      .filter(({ x, y }) => x >= 0 && y >= 0 && x <= this.width && y <= this.height);
+    return spread(all, kMostNames);
   }
 }

@@ -148,10 +148,10 @@ function leafText(value: unknown): string {
 
 /** All figures of a summary with their names, grouped. */
 export function summaryGroups(summary: Tree): SummaryGroup[] {
-  const groups: SummaryGroup[] = [];
+  const groups = new Map<string, SummaryGroup>();
   const add = (title: string, row: [string, string]) => {
-    let group = groups.find((known) => known.title === title);
-    if (!group) groups.push((group = { title, rows: [] }));
+    let group = groups.get(title);
+    if (!group) groups.set(title, (group = { title, rows: [] }));
     group.rows.push(row);
   };
   const walk = (value: unknown, path: string[]) => {
@@ -169,5 +169,5 @@ export function summaryGroups(summary: Tree): SummaryGroup[] {
     }
   };
   walk(summary, []);
-  return groups;
+  return [...groups.values()];
 }

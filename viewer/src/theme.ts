@@ -14,7 +14,7 @@ export interface Theme {
   curves: string[];
 }
 
-const kLight: Theme = {
+export const kLight: Theme = {
   dark: false,
   background: '#f3f5f8',
   grid: '#8b97a8',

@@ -4,6 +4,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { base64, coded, ints, rows } from './encoding.mjs';
+import { chain, wavyChain } from './chain_fixture.mjs';
 import { largeTorus } from './large_fixture.mjs';
 import { vibrations } from './modes_fixture.mjs';
 import { solidCube } from './solid_fixture.mjs';
@@ -228,6 +229,8 @@ export const kVariants = {
     { ...sliderCrank({ frames: 250, bending: 2 }), directory: 'twice', changes: ['rod.bending=2'] },
   ],
   rotor,
+  crowd: () => chain(3000),
+  'long-chain': () => wavyChain(10000),
   large: () => largeTorus({ around: 200, across: 50, frames: 6 }),
 };
 

@@ -69,6 +69,34 @@ export async function variantSpecs({ test, browser, variant }) {
     await opened.tab.close();
   });
 
+  await test('thousands of bodies are drawn and move; some are named, forces are shown', async () => {
+    const opened = await open(browser, variant('crowd'));
+    await setTime(opened.tab, 0);
+    const first = await pixels(opened.tab);
+    await setTime(opened.tab, 1);
+    const later = await pixels(opened.tab);
+    // From afar a line of some 500 pixels, which moves down by less than one, changes its colours.
+    assert.ok(colors(first).size > 5, `${colors(first).size} colours`);
+    const { bodies } = await state(opened.tab);
+    assert.deepEqual(bodies[2999].pose.slice(0, 3), [2999, 2, 0]);
+    await opened.tab.locator('[data-toggle="labels"]').click();
+    await settle(opened.tab);
+    const names = await opened.tab.locator('.label.body:visible').count();
+    assert.ok(names > 20 && names <= 80, `${names} names`);
+    await opened.tab.locator('[data-toggle="labels"]').click();
+    await opened.tab.locator('[data-toggle="reactions"]').click();
+    const pushed = await pixels(opened.tab);
+    assert.ok(difference(later, pushed) > 100, `${difference(later, pushed)} pixels of forces`);
+    await opened.tab.locator('.display summary').click();
+    const trace = opened.tab.getByLabel('Trace of a point');
+    await trace.focus();
+    assert.equal(await trace.locator('option').count(), 1 + 3 * 3000);
+    await opened.tab.getByRole('button', { name: 'Details' }).click();
+    assert.match(await opened.tab.locator('dialog[open]').innerText(), /Rigid bodies\s+3000/);
+    assert.deepEqual(opened.complaints, []);
+    await opened.tab.close();
+  });
+
   await test('vibrations: a mode and its amplitude are chosen, its shape swings', async () => {
     const opened = await open(browser, variant('modes'));
     const modes = opened.tab.locator('[data-mode]');
