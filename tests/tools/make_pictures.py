@@ -71,6 +71,7 @@ PICTURES = (
             folders=("fine", "coarse"), time=0.055),
     Picture("page_dark", fixture="large", time=0.22,
             view=("--dark", "--press", "x", "--follow", "5000", "--follow", "6510")),
+    Picture("page_many", fixture="long-chain", time=0.1),
 )
 DRAWINGS = (
     Drawing(("docs/pictures/method_comparison.svg",),
