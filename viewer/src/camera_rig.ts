@@ -4,6 +4,8 @@ import type { KeptCamera } from './hook';
 import type { Triple } from './page_data';
 
 const kFieldOfView = 32;
+/** Least distance to the target, as a share of the size of the run. */
+export const kClosest = 0.01;
 
 /** Widths of the controls over the edges of the picture [CSS px]. */
 export interface Insets {
@@ -15,7 +17,7 @@ export interface Insets {
 
 /** Two cameras behind one set of mouse controls. Scene units: the run's size is 1. */
 export class CameraRig {
-  private readonly perspective = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.002, 60);
+  private readonly perspective: THREE.PerspectiveCamera;
   private readonly parallel = new THREE.OrthographicCamera(-1, 1, 1, -1, -30, 60);
   private controls!: OrbitControls;
   private aspect = 1;
@@ -34,7 +36,10 @@ export class CameraRig {
     private readonly up: Triple,
     public orthographic: boolean,
     private readonly changed: () => void,
+    /** Least distance to the target. */
+    private readonly closest = kClosest,
   ) {
+    this.perspective = new THREE.PerspectiveCamera(kFieldOfView, 1, closest / 5, 60);
     for (const camera of [this.perspective, this.parallel]) camera.up.set(...up);
     this.bind(new THREE.Vector3());
   }
@@ -65,8 +70,8 @@ export class CameraRig {
     this.controls.target.copy(target);
     this.controls.zoomToCursor = true;
     this.controls.minZoom = 0.05;
-    this.controls.maxZoom = 400;
-    this.controls.minDistance = 0.01;
+    this.controls.maxZoom = 4 / this.closest;
+    this.controls.minDistance = this.closest;
     this.controls.maxDistance = 30;
     this.controls.addEventListener('change', () => this.quiet || this.changed());
     this.controls.addEventListener('start', () => (this.fitted = null));

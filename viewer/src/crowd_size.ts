@@ -1,3 +1,4 @@
+import { kClosest } from './camera_rig';
 import { numNodes, type Body, type Run } from './run';
 
 /** More parts than this are drawn as plain forms in a few calls; fewer as glyphs of their own. */
@@ -15,6 +16,14 @@ export function isCrowd(run: Run): boolean {
 /** Whether a body can be drawn as bars from its origin to its markers. */
 export function isPlain(body: Body): boolean {
   return body.kind === 'rigid' && numNodes(body) === 0;
+}
+
+/** Nearer, places in single precision would tremble by more than a pixel. */
+const kSteady = 1e-4;
+
+/** How near one may go to see joints of this radius well, both as shares of the size of the run. */
+export function closestTo(joint: number): number {
+  return Math.min(kClosest, Math.max(kSteady, 20 * joint));
 }
 
 /** Radius of joints among bodies that are small beside the whole [m]; `usual` where bodies have no extent. */

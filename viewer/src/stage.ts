@@ -1,8 +1,8 @@
 import * as THREE from 'three';
 import { BodyView, type GlyphSize } from './body_view';
-import { CameraRig, type Insets } from './camera_rig';
+import { CameraRig, kClosest, type Insets } from './camera_rig';
 import { Crowd } from './crowd';
-import { crowdJoint, isCrowd } from './crowd_size';
+import { closestTo, crowdJoint, isCrowd } from './crowd_size';
 import { CornerTriad } from './corner_triad';
 import { Grid } from './grid';
 import { ball } from './glyphs';
@@ -85,7 +85,8 @@ export class Stage {
     this.model.scale.setScalar(scale);
     this.model.position.set(...bounds.center).multiplyScalar(-scale);
     this.scene.add(this.model, new THREE.HemisphereLight(0xffffff, 0xb4bcc6, 2.1));
-    this.rig = new CameraRig(this.canvas, this.orientation.up, run.planar !== null, moved);
+    const closest = isCrowd(run) ? closestTo(this.glyphs.joint / bounds.size) : kClosest;
+    this.rig = new CameraRig(this.canvas, this.orientation.up, run.planar !== null, moved, closest);
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute('role', 'img');
     const headlight = new THREE.DirectionalLight(0xffffff, 1.7);

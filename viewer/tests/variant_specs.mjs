@@ -77,6 +77,17 @@ export async function variantSpecs({ test, browser, variant }) {
     const later = await pixels(opened.tab);
     // From afar a line of some 500 pixels, which moves down by less than one, changes its colours.
     assert.ok(colors(first).size > 5, `${colors(first).size} colours`);
+    const near = await opened.tab.evaluate(() => {
+      const page = window.__buckens;
+      const kept = page.keep();
+      const { target } = kept.camera;
+      page.adopt({ ...kept, camera: { ...kept.camera, orthographic: false, position: [target[0], target[1], target[2] + 0.002] } });
+      const there = page.keep().camera;
+      page.adopt(kept);
+      return there.position[2] - there.target[2];
+    });
+    // A fifth of the closest look at what has no thousands of parts: some links fill the picture.
+    assert.ok(Math.abs(near - 0.002) < 1e-6, `${near}`);
     const { bodies } = await state(opened.tab);
     assert.deepEqual(bodies[2999].pose.slice(0, 3), [2999, 2, 0]);
     await opened.tab.locator('[data-toggle="labels"]').click();
