@@ -52,6 +52,11 @@ struct ImpactShare {
   double energy;     ///< [J]
 };
 
+/// Shape of a mesh and its rates at one instant; empty if they are not known.
+struct ShapeAndRates {
+  linalg::Vector d, d_dot;
+};
+
 /// Effort and residuals of one step.
 struct StepReport {
   int newton_iterations = 0;
@@ -70,6 +75,9 @@ struct StepReport {
   /// Of them, those that should have rebounded and were stopped, since friction jams.
   int jammed_impacts = 0;
   std::span<const ImpactShare> impact_shares{};  ///< of the loss, valid until the next step
+  /// Per body, what it had at the end of the step before blows that are counted by the energy that
+  /// all bodies have less of; empty where there are none. Valid until the next step.
+  std::span<const ShapeAndRates> before_blows{};
   double impact_rest = 0;  ///< from their mean instant to the end of the step [s]
   /// Whether accelerations have jumped, so that they have to be found anew at the end of the step:
   /// by impacts, or by rigid rows that now hold otherwise.

@@ -311,6 +311,10 @@ void Stepper::take_impacts(StepReport& report) {
   std::vector<dynamics::BodyMotion> motions = before;
   const bool counts_energy = impacts_->stay_on_meshes();
   const double energy = counts_energy ? dynamics::energy(model_, next_).total() : 0.0;
+  if (counts_energy) {
+    keep_before_blows();
+    report.before_blows = before_blows_;
+  }
   for (std::size_t b = 0; b < bodies_.size(); ++b) add_jump(b, impacts_->jumps()[b], motions[b]);
   if (counts_energy) impacts_->lose_in_all(energy - dynamics::energy(model_, next_).total());
   model::RowMemory memory;
@@ -328,6 +332,16 @@ void Stepper::take_impacts(StepReport& report) {
   report.impact_shares = impacts_->shares();
   report.impact_rest = impacts_->rest();
   report.must_settle = true;
+}
+
+void Stepper::keep_before_blows() {
+  before_blows_.resize(bodies_.size());
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const bool moves = flexible_[b] && !operators_[b]->is_quasi_static();
+    if (!moves || !model_.bodies[b].flexible->is_damped()) continue;
+    before_blows_[b].d = next_.bodies[b].d;
+    before_blows_[b].d_dot = next_.bodies[b].d_dot;
+  }
 }
 
 void Stepper::add_jump(std::size_t b, const BodyJump& jump, dynamics::BodyMotion& motion) {

@@ -135,6 +135,8 @@ class Stepper {
   /// Lets what has run into rigid stops leave them again, at the end of the step.
   void take_impacts(StepReport& report);
   void add_jump(std::size_t b, const BodyJump& jump, dynamics::BodyMotion& motion);
+  /// Keeps what damped meshes had before the jumps.
+  void keep_before_blows();
   void group_factors();
   /// Calls f(b) for every body, in parallel where that pays; results must not depend on the order.
   template <class F>
@@ -151,6 +153,7 @@ class Stepper {
   bool forecasts_;  // no rows that come and go, which a forecast does not know
   std::unique_ptr<Impacts> impacts_;
   std::vector<dynamics::BodyMotion> at_start_;  // of the step, for impacts_
+  std::vector<ShapeAndRates> before_blows_;     // per body, at the end of the last step with any
   std::unique_ptr<StrandStep> strand_;          // null: never
   std::vector<BodyStep> bodies_;
   std::vector<std::unique_ptr<FlexibleStep>> flexible_;  // null: rigid

@@ -23,6 +23,7 @@ DampingWork::DampingWork(const model::Model& model, std::size_t body, const mode
   if (holds_at_states && !part.is_reduced() && !part.is_quasi_static) {
     beta = stepping::stiffness_damping(part);
   }
+  forms_elastic_load_ = model.may_have_rigid_rows();
   is_direct_ = !beta;
   if (beta) {
     beta_ = *beta;
@@ -39,27 +40,27 @@ void DampingWork::begin_at(const model::BodyState& s) {
     rates_ = s.d_dot;
     return;
   }
-  power_ = mass_power(s);
+  power_ = mass_power(s.d_dot);
   d_ = s.d;
   elastic_ = body_->flexible->fe.K * s.d;
   last_step_ = 0.0;
   ++products_;
 }
 
-double DampingWork::direct_work(const model::BodyState& s, double h) {
+double DampingWork::direct_work(const Vector& d_dot, double h) {
   if (!body_->flexible->is_damped()) return 0.0;
-  motion_ = 0.5 * (rates_ + s.d_dot);
-  rates_ = s.d_dot;
+  motion_ = 0.5 * (rates_ + d_dot);
+  rates_ = d_dot;
   linalg::multiply({{&body_->flexible->C, &motion_, &image_}});
   ++products_;
   return h * motion_.dot(image_);
 }
 
-double DampingWork::mass_power(const model::BodyState& s) {
+double DampingWork::mass_power(const Vector& d_dot) {
   const double alpha = body_->flexible->fe.mass_damping;
   if (alpha == 0.0) return 0.0;
-  mass_->multiply_mass(s.d_dot, image_);
-  return alpha * s.d_dot.dot(image_);
+  mass_->multiply_mass(d_dot, image_);
+  return alpha * d_dot.dot(image_);
 }
 
 void DampingWork::find_elastic_load(const model::State& state, const dynamics::Forces& forces,
@@ -92,23 +93,45 @@ double DampingWork::add(const model::State& state, const dynamics::Forces& force
   const model::BodyState& s = state.bodies[index_];
   const double h = state.t - t_;
   t_ = state.t;
-  if (is_direct_) return direct_work(s, h);
-  const bool has_jumped = rates == RatesAtEnd::have_jumped;
-  if (has_jumped) {
+  if (is_direct_) return direct_work(s.d_dot, h);
+  const bool is_formed = forms_elastic_load_ || rates == RatesAtEnd::have_jumped;
+  if (is_formed) {
     now_ = body_->flexible->fe.K * s.d;
     ++products_;
   } else {
     find_elastic_load(state, forces, h);
   }
-  const double mass_before = power_;
-  power_ = mass_power(s);
-  motion_ = s.d - d_;
-  const double stiffness = beta_ / h * (motion_.dot(now_) - motion_.dot(elastic_));
+  const double power = mass_power(s.d_dot);
+  const double work = proportional_work(s.d, now_, power, h);
+  power_ = power;
   std::swap(elastic_before_, elastic_);
   std::swap(elastic_, now_);
   d_ = s.d;
-  last_step_ = has_jumped ? 0.0 : h;
-  return 0.5 * h * (mass_before + power_) + stiffness;
+  last_step_ = is_formed ? 0.0 : h;
+  return work;
+}
+
+double DampingWork::add_before_blows(const stepping::ShapeAndRates& before,
+                                     const model::State& state) {
+  const double h = state.t - t_;
+  t_ = state.t;
+  double work = 0;
+  if (is_direct_) {
+    work = direct_work(before.d_dot, h);
+  } else {
+    now_ = body_->flexible->fe.K * before.d;
+    ++products_;
+    work = proportional_work(before.d, now_, mass_power(before.d_dot), h);
+  }
+  begin_at(state.bodies[index_]);
+  return work;
+}
+
+double DampingWork::proportional_work(const Vector& d, const Vector& elastic, double power,
+                                      double h) {
+  motion_ = d - d_;
+  const double stiffness = beta_ / h * (motion_.dot(elastic) - motion_.dot(elastic_));
+  return 0.5 * h * (power_ + power) + stiffness;
 }
 
 }  // namespace buckens::analysis

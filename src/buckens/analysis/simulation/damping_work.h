@@ -6,6 +6,7 @@
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
 #include "buckens/stepping/inertial_load.h"
+#include "buckens/stepping/step_settings.h"
 
 namespace buckens::analysis {
 
@@ -22,9 +23,12 @@ enum class RatesAtEnd { are_smooth, have_jumped };
 ///
 /// and with the rate of K d by two-step backward differences this gives K d to order h². The step
 /// then dissipates h α ḋᵀM ḋ + β/h Δᵀ K Δ, Δ = d⁺ − d. The rate of K d jumps where ḋ does: there K
-/// d is formed, and the differences begin anew. Otherwise, and for reduced bodies, h v̄ᵀC v̄ is
-/// formed with the mean v̄ of the rates at both ends: what Newmark's method dissipates exactly, also
-/// of vibrations that the step does not resolve. Theory: docs/theory/05-time-integration.md §6.
+/// d is formed, and the differences begin anew; in models with rigid rows, whose blows and releases
+/// leave vibrations that no difference follows, it is formed in each step. Blows whose loss is all
+/// that bodies have less of after them have in it what the jump of the shape damps: the step then
+/// damps the motion before them. Otherwise, and for reduced bodies, h v̄ᵀC v̄ is formed with the mean
+/// v̄ of the rates at both ends: what Newmark's method dissipates exactly, also of vibrations that
+/// the step does not resolve. Theory: docs/theory/05-time-integration.md §6.
 class DampingWork {
  public:
   /// @param holds_at_states whether states satisfy the equations of motion: not those of methods
@@ -36,6 +40,9 @@ class DampingWork {
   /// @param forces at this state, including those of joints
   double add(const model::State& state, const dynamics::Forces& forces,
              RatesAtEnd rates = RatesAtEnd::are_smooth);
+  /// The same where blows have moved the body at the end of the step.
+  /// @param before what it had there before them
+  double add_before_blows(const stepping::ShapeAndRates& before, const model::State& state);
   /// To be called when something else than a step has changed the last state.
   void start(const model::State& state);
 
@@ -51,14 +58,19 @@ class DampingWork {
   /// Starts from a state with other rates.
   void begin_at(const model::BodyState& s);
   /// h v̄ᵀC v̄ of the step to this state.
-  double direct_work(const model::BodyState& s, double h);
-  double mass_power(const model::BodyState& s);
+  /// @param d_dot rates at its end
+  double direct_work(const linalg::Vector& d_dot, double h);
+  double mass_power(const linalg::Vector& d_dot);
+  /// Taken by C = α M + β K. @param elastic K d at the end of the step, @param power by α M there
+  double proportional_work(const linalg::Vector& d, const linalg::Vector& elastic, double power,
+                           double h);
   /// K d at the state from the balance of loads.
   void find_elastic_load(const model::State& state, const dynamics::Forces& forces, double h);
 
   const body::Body* body_;
   std::size_t index_;
   bool is_direct_ = true;
+  bool forms_elastic_load_ = false;  // in each step, in place of the differences
   double beta_ = 0;
   std::optional<stepping::InertialLoad> mass_;
   double power_ = 0;                             // of α M at the last state [W]

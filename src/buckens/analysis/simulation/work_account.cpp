@@ -221,7 +221,10 @@ void WorkAccount::add_step(const model::State& state, const Powers& loads,
   double dissipated = h * loads.damping + (impacts != nullptr ? impacts->impact_loss : 0.0);
   work_before_ = work_;
   for (DampingWork& mesh : meshes_) {
-    const double lost = mesh.add(state, forces_, rates);
+    const bool is_known = impacts != nullptr && !impacts->before_blows.empty() &&
+                          impacts->before_blows[mesh.body()].d.size() > 0;
+    const double lost = is_known ? mesh.add_before_blows(impacts->before_blows[mesh.body()], state)
+                                 : mesh.add(state, forces_, rates);
     dissipated += lost;
     part(parts_.of_body(mesh.body())) += lost;
   }
