@@ -66,17 +66,29 @@ bool ContactCones::holds(const Place& place, const Now& now,
          (kAligned * speed + 4.0 * at_rest) * now.force.norm();
 }
 
-bool ContactCones::hold(const std::vector<loads::RigidRow>& rows,
-                        const std::vector<loads::RowStand>& stands) const {
+bool ContactCones::hold(const std::vector<loads::RigidRow>& rows, const RigidRows& rigid) const {
+  const std::vector<loads::RowStand>& stands = rigid.stands();
   for (const Place& place : places_) {
+    if (rigid.only_pulls_at_end(place.across)) {
+      if (rubs(place, stands)) return false;
+      continue;
+    }
     if (!holds(place, look(place, rows, stands), rows, stands)) return false;
   }
   return true;
 }
 
+bool ContactCones::rubs(const Place& place, const std::vector<loads::RowStand>& stands) {
+  for (int k = 1; k <= place.count; ++k) {
+    if (stands[static_cast<std::size_t>(place.across + k)].regime != 0) return true;
+  }
+  return false;
+}
+
 ContactCones::Pressed ContactCones::gather(const std::vector<loads::RigidRow>& rows,
                                            const dynamics::SoftRows& soft,
-                                           const std::vector<loads::RowStand>& stands) const {
+                                           const RigidRows& rigid) const {
+  const std::vector<loads::RowStand>& stands = rigid.stands();
   Pressed out;
   const auto add = [&](int soft_row, double force, double rate) {
     out.pushes.emplace_back().row = soft.rows[static_cast<std::size_t>(soft_row)];
@@ -85,7 +97,7 @@ ContactCones::Pressed ContactCones::gather(const std::vector<loads::RigidRow>& r
   };
   for (const Place& place : places_) {
     const Now now = look(place, rows, stands);
-    if (!now.is_pressed) continue;
+    if (!now.is_pressed || rigid.only_pulls_at_end(place.across)) continue;
     out.places.push_back(&place);
     add(place.soft, now.load, rows[static_cast<std::size_t>(place.across)].slip);
   }
@@ -101,15 +113,17 @@ ContactCones::Pressed ContactCones::gather(const std::vector<loads::RigidRow>& r
   return out;
 }
 
-bool ContactCones::condense(const Instant& now) {
+bool ContactCones::condense(const Instant& now, const RigidRows& rigid) {
   if (now.memory != nullptr) {
     for (Place& place : places_) place.data = place.law->data_at(now.memory->signals);
   }
-  // Other rigid rows, as stops and locks, go on as they stand.
+  // Other rigid rows, as stops and locks, go on as they stand, and so do places that pull at the
+  // end only.
   std::vector<dynamics::SystemRow> others;
   for (std::size_t k = 0; k < now.soft.rows.size(); ++k) {
     const int row = now.soft.rigid[k];
-    if (now.soft.is_closed[k] && row >= 0 && is_own_[static_cast<std::size_t>(row)] == 0) {
+    if (row < 0 || !now.soft.is_closed[k]) continue;
+    if (is_own_[static_cast<std::size_t>(row)] == 0 || rigid.only_pulls_at_end(row)) {
       others.push_back(now.soft.rows[k]);
     }
   }
@@ -119,7 +133,7 @@ bool ContactCones::condense(const Instant& now) {
 ContactCones::Outcome ContactCones::solve(const Instant& now, double per_force, double per_change,
                                           const RigidRows& rigid) const {
   Outcome out;
-  out.pressed = gather(now.rows, now.soft, rigid.stands());
+  out.pressed = gather(now.rows, now.soft, rigid);
   if (out.pressed.places.empty()) return out;
   std::vector<Push>& pushes = out.pressed.pushes;
   for (Push& push : pushes) answers_.answer(push);
@@ -141,10 +155,11 @@ ContactCones::Outcome ContactCones::solve(const Instant& now, double per_force, 
 
 bool ContactCones::decide(const Instant& now, double per_force, double per_change,
                           RigidRows& rigid) {
-  if (!condense(now)) return false;
+  if (!condense(now, rigid)) return false;
   bool has_moved = false;
   for (const Place& place : places_) {
-    if (rigid.stands()[static_cast<std::size_t>(place.across)].regime != 0) continue;
+    const bool is_pressed = rigid.stands()[static_cast<std::size_t>(place.across)].regime != 0;
+    if (is_pressed && !rigid.only_pulls_at_end(place.across)) continue;
     for (int k = 1; k <= place.count; ++k) has_moved = rigid.put(place.across + k, {}) || has_moved;
   }
   const Outcome found = solve(now, per_force, per_change, rigid);
@@ -168,7 +183,7 @@ void ContactCones::follow(int across, RigidRows& rigid) const {
 }
 
 void ContactCones::hold_over(const Instant& now, double span, RigidRows& rigid) {
-  if (!condense(now)) return;
+  if (!condense(now, rigid)) return;
   const Outcome found = solve(now, span, 1.0, rigid);
   for (std::size_t k = 0; k < found.pressed.places.size(); ++k) {
     const Place& place = *found.pressed.places[k];

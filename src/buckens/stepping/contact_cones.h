@@ -38,8 +38,8 @@ class ContactCones {
   /// Whether a row of the state is one of those that are decided here, per rigid row.
   const std::vector<char>& rows() const { return is_own_; }
   /// Whether all places stand as their forces and rates ask. @param rows of the iteration
-  bool hold(const std::vector<loads::RigidRow>& rows,
-            const std::vector<loads::RowStand>& stands) const;
+  /// What has pushed over the step and pulls at its end only stays, and does not rub there.
+  bool hold(const std::vector<loads::RigidRow>& rows, const RigidRows& rigid) const;
   /// Decides anew. @param per_force,per_change of the equations:
   /// `compliance` times per_force is the displacement by a force, times per_change the change of
   /// the rate
@@ -84,8 +84,10 @@ class ContactCones {
     double none = 0;          ///< rates up to this are rounding
   };
   Pressed gather(const std::vector<loads::RigidRow>& rows, const dynamics::SoftRows& soft,
-                 const std::vector<loads::RowStand>& stands) const;
-  bool condense(const Instant& now);
+                 const RigidRows& rigid) const;
+  bool condense(const Instant& now, const RigidRows& rigid);
+  /// Whether any row along a place is in use.
+  static bool rubs(const Place& place, const std::vector<loads::RowStand>& stands);
   Outcome solve(const Instant& now, double per_force, double per_change,
                 const RigidRows& rigid) const;
   static Now look(const Place& place, const std::vector<loads::RigidRow>& rows,

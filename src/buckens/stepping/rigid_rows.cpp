@@ -12,6 +12,10 @@ namespace buckens::stepping {
 namespace {
 // Rigid rows with less of their own than this share hold what others hold.
 constexpr double kTheSame = 1e-11;
+// Share of damping in what resists within a step, beside stiffness, from which on it turns rates
+// round. Of bars on the floor those with 0.29 and more gain by it; an undamped one, which stiffness
+// alone turns round, left twice as much energy open.
+constexpr double kTurns = 0.25;
 
 // What a row that a mesh takes part in holds: an end, which only pushes, or a direction of friction
 // there. Open, neither does anything.
@@ -26,12 +30,27 @@ char held_by(const model::Load& load) {
 /// vibrations of a mesh turn within the step. @param released see RigidRows::open()
 bool turns_at_end(double force, double released) { return force * (force - released) < 0.0; }
 
+/// Whether the finest parts of a body have rates that its damping turns round from step to step.
+bool rates_turn(const body::Body& body, const Scheme& scheme) {
+  if (!body.is_flexible() || body.flexible->is_quasi_static || !body.flexible->is_damped()) {
+    return false;
+  }
+  // Traces are above all those of the finest parts.
+  const double damping = scheme.damping * body.flexible->C.diagonal().sum();
+  const double stiffness = scheme.stiffness * body.flexible->fe.K.diagonal().sum();
+  return damping > kTurns * (damping + stiffness);
+}
+
 }  // namespace
 
-RigidRows::RigidRows(const model::Model& model) {
+RigidRows::RigidRows(const model::Model& model, const Scheme* scheme) {
   const std::vector<char> with_mesh = mesh_partners(model);
   const auto is_mesh = [&](int body) {
     return body != model::kGround && with_mesh[static_cast<std::size_t>(body)] != 0;
+  };
+  const auto turns = [&](int body) {
+    return scheme != nullptr && body != model::kGround &&
+           rates_turn(model.bodies[static_cast<std::size_t>(body)], *scheme);
   };
   for (const model::Load& load : model.loads) {
     if (load.rigid_row < 0) continue;
@@ -39,6 +58,8 @@ RigidRows::RigidRows(const model::Model& model) {
     loads_.push_back(static_cast<std::size_t>(&load - model.loads.data()));
     const bool moves_mesh = is_mesh(load.first.body) || is_mesh(load.second.body);
     is_on_mesh_.push_back(moves_mesh ? held_by(load) : kNothing);
+    const bool is_end = is_on_mesh_.back() == kEnd;
+    turns_by_damping_.push_back(is_end && (turns(load.first.body) || turns(load.second.body)));
   }
   stands_.resize(first_states_.size());
   released_.resize(first_states_.size());
@@ -98,6 +119,21 @@ bool RigidRows::put(int row, const loads::RowStand& stand) {
   const bool is_other = own.regime != stand.regime;
   own = stand.regime == 0 ? open(static_cast<std::size_t>(row)) : stand;
   return is_other;
+}
+
+bool RigidRows::only_pulls_at_end(int row) const {
+  const auto k = static_cast<std::size_t>(row);
+  const bool is_held = stands_[k].regime != 0 && stands_[k].regime == regimes_at_start_[k];
+  return is_held && turns_by_damping_[k] != 0 && stands_[k].force < 0.0 &&
+         turns_at_end(stands_[k].force, released_[k]);
+}
+
+bool RigidRows::ends_have_turned() const {
+  for (std::size_t k = 0; k < stands_.size(); ++k) {
+    if (is_on_mesh_[k] != kEnd || regimes_at_start_[k] == 0) continue;
+    if (stands_[k].regime == 0 || turns_at_end(stands_[k].force, released_[k])) return true;
+  }
+  return false;
 }
 
 bool RigidRows::have_changed() const {

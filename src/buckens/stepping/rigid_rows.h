@@ -7,6 +7,7 @@
 #include "buckens/loads/force_element.h"
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
+#include "buckens/stepping/scheme.h"
 
 namespace buckens::stepping {
 
@@ -14,7 +15,8 @@ namespace buckens::stepping {
 /// Docs: docs/theory/22-rows.md §5.
 class RigidRows {
  public:
-  explicit RigidRows(const model::Model& model);
+  /// @param scheme of the steps; null outside of them
+  explicit RigidRows(const model::Model& model, const Scheme* scheme = nullptr);
 
   bool empty() const { return first_states_.empty(); }
   /// Takes the stands that a state remembers.
@@ -38,6 +40,12 @@ class RigidRows {
   bool put(int row, const loads::RowStand& stand);
   /// Counts a move of rows that were put.
   void count_move() { ++num_moves_; }
+  /// Whether a closed end on a mesh with strong damping pulls at the end of the step, but has
+  /// pushed over the whole.
+  bool only_pulls_at_end(int row) const;
+  /// Whether an end on a mesh that was closed at the start of the step has let go, or does the
+  /// other way at its end than over the whole.
+  bool ends_have_turned() const;
   /// Regime changes in this step.
   int num_moves() const { return num_moves_; }
   /// Whether any regime is another one than at the start of the step.
@@ -47,9 +55,10 @@ class RigidRows {
   /// How a row stands open: with a force of its own in a step in which it lets go.
   loads::RowStand open(std::size_t row) const { return {0, 0.0, released_[row]}; }
 
-  std::vector<int> first_states_;   // in RowMemory::laws, per rigid row
-  std::vector<std::size_t> loads_;  // index into Model::loads, per rigid row
-  std::vector<char> is_on_mesh_;    // per rigid row: what it holds where a mesh takes part
+  std::vector<int> first_states_;       // in RowMemory::laws, per rigid row
+  std::vector<std::size_t> loads_;      // index into Model::loads, per rigid row
+  std::vector<char> is_on_mesh_;        // per rigid row: what it holds where a mesh takes part
+  std::vector<char> turns_by_damping_;  // per rigid row: it is on a mesh whose rates damping turns
   std::vector<loads::RowStand> stands_;
   std::vector<double> released_;  // what a row has if it lets go in this step
   std::vector<int> regimes_at_start_;

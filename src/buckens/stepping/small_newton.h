@@ -43,6 +43,8 @@ class SmallNewton {
   const dynamics::Circumstances& around() const { return around_; }
   /// Whether rigid rows stand otherwise than at the start of the step.
   bool rigid_rows_changed() const { return rigid_.have_changed(); }
+  /// See RigidRows::ends_have_turned().
+  bool ends_have_turned() const { return rigid_.ends_have_turned(); }
   /// Whether rigid rows that have moved too often in a step stay as they stand then, in place of a
   /// failure: near its limit a set may admit a force or not by rounding.
   void accept_last_stands(bool accepts) { accepts_last_stands_ = accepts; }

@@ -145,7 +145,7 @@ const loads::RigidRow* SmallNewton::closed_row(std::size_t soft) const {
 bool SmallNewton::move_rigid_rows(double t, const StepReport& report) {
   if (rigid_.empty() || !may_move(t, report)) return false;
   // Friction that is out of its cone presses others off their stops that are pressed on in the end.
-  const bool are_held = cones_.empty() || cones_.hold(forces_.rigid, rigid_.stands());
+  const bool are_held = cones_.empty() || cones_.hold(forces_.rigid, rigid_);
   if (!are_held && decide_cones(t, report)) return true;
   return rigid_.move(forces_.rigid, cones_.rows());
 }

@@ -82,6 +82,9 @@ struct StepReport {
   /// Whether accelerations have jumped, so that they have to be found anew at the end of the step:
   /// by impacts, or by rigid rows that now hold otherwise.
   bool must_settle = false;
+  /// Whether an end on a mesh has let go or pulls at the end of the step only, without blows:
+  /// before that, rates have to be taken to their mean, see Stepper::take_mean_of_turning().
+  bool ends_have_turned = false;
   /// Whether no combination of holding and releasing satisfied all rigid rows, and the last one was
   /// taken.
   bool has_undecided_rows = false;

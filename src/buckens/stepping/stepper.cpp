@@ -332,6 +332,7 @@ void Stepper::take_impacts(StepReport& report) {
   report.impact_shares = impacts_->shares();
   report.impact_rest = impacts_->rest();
   report.must_settle = true;
+  report.ends_have_turned = false;  // the rates that turn have been struck
 }
 
 void Stepper::keep_before_blows() {
@@ -374,6 +375,33 @@ void Stepper::filter_algorithmic(model::State& state) {
     op.solve_right_side(s.d_alg, pool_.get());
     op.sieve().apply(s.d_alg);
   }
+}
+
+bool Stepper::take_mean_of_turning(const model::State& before, model::State& after) {
+  bool has_any = false;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!flexible_[b] || operators_[b]->is_quasi_static()) continue;
+    BodyStepOperator& op = *operators_[b];
+    const InertialLoad& inertial = op.inertial();
+    if (!inertial.is_damped()) continue;
+    has_any = true;
+    Vector& rates = after.bodies[b].d_dot;
+    Vector turning = 0.5 * (rates - before.bodies[b].d_dot);
+    for (int k = 0; k < 2; ++k) {
+      const Vector load = scheme_.damping * turning;
+      if (inertial.is_proportional()) {
+        inertial.multiply_mass(load, turning, pool_.get());
+        turning *= inertial.zeta();
+      } else {
+        inertial.multiply(Vector::Zero(load.size()), load, turning, pool_.get());
+      }
+      op.solve_right_side(turning, pool_.get());
+      turning += inertial.share() * load;
+      op.sieve().apply(turning);
+    }
+    rates -= turning;
+  }
+  return has_any;
 }
 
 linalg::Matrix Stepper::impulse_compliance(std::size_t body) const {
@@ -487,6 +515,7 @@ StepReport Stepper::take_general_step(const model::State& state) {
   form_next_state(state);
   report.must_settle = newton_->rigid_rows_changed();
   report.has_undecided_rows = newton_->has_accepted_stands();
+  report.ends_have_turned = newton_->ends_have_turned();
   take_impacts(report);
   has_stepped_ = true;
   return report;

@@ -98,6 +98,10 @@ class Stepper {
   /// anew: takes out of them what the step does not resolve, if the method damps, (I9). One solve
   /// per mesh.
   void filter_algorithmic(model::State& state);
+  /// Takes rates of meshes that strong damping turns round from step to step to their mean over the
+  /// last one, (I10); rows may be open by it. Two solves per damped mesh. @return whether there are
+  /// any
+  bool take_mean_of_turning(const model::State& before, model::State& after);
   const Scheme& scheme() const { return scheme_; }
   /// Joint rows in use at the last step.
   const std::vector<int>& rows_in_use() const { return newton_->rows_in_use(); }

@@ -17,7 +17,7 @@ RoughContacts::RoughContacts(const model::Model& model, const dynamics::MassMetr
 
 bool RoughContacts::decide(const dynamics::Forces& forces, model::State& state) {
   rigid_.start(state.memory);
-  if (cones_.hold(forces.rigid, rigid_.stands())) return false;
+  if (cones_.hold(forces.rigid, rigid_)) return false;
   const auto motions = dynamics::motions_of(model_, state);
   dynamics::evaluate_soft_rows(model_, motions, state.t, dynamics::circumstances_of(state), soft_);
   const stepping::ContactCones::Instant now{forces.rigid, soft_,         compliance_, motions,

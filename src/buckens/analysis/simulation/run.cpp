@@ -180,7 +180,7 @@ stepping::StepReport SimulationRun::take_step(const model::State& before, model:
     shafts_->check(before, after);
     // The step closed velocities with the shapes of quasi-static bodies at its start.
     if (has_quasi_static_) project_velocities(built_.model, *metric_, after);
-    if (report.must_settle) settle(before, after, report.impact_rest);
+    if (report.must_settle) settle(before, after, report);
     return report;
   } catch (const NumericalError&) {
     after = before;
@@ -202,8 +202,14 @@ bool SimulationRun::holds_action(const model::State& from, const model::State& t
 }
 
 /// Accelerations that have jumped are found anew, and what foretells the motion begins here.
-void SimulationRun::settle(const model::State& before, model::State& state, double rest) {
-  settle_after_impact(built_.model, *metric_, march_->stepper().rows_in_use(), before, rest, state);
+void SimulationRun::settle(const model::State& before, model::State& state,
+                           const stepping::StepReport& report) {
+  stepping::Stepper& stepper = march_->stepper();
+  if (report.ends_have_turned && stepper.take_mean_of_turning(before, state)) {
+    close_rates(built_.model, stepper.rows_in_use(), &stepper, state);
+  }
+  settle_after_impact(built_.model, *metric_, stepper.rows_in_use(), before, report.impact_rest,
+                      state);
   state.history = 0;
   march_->restart(state);
 }

@@ -87,7 +87,7 @@ class SimulationRun {
   void take_steps();
   stepping::StepReport take_step(const model::State& before, model::State& after);
   bool holds_action(const model::State& from, const model::State& to);
-  void settle(const model::State& before, model::State& state, double rest);
+  void settle(const model::State& before, model::State& state, const stepping::StepReport& report);
   bool report_progress();
   void split_wall_time();
   std::vector<std::size_t> loads_with_values(const std::string& name) const;
