@@ -131,6 +131,11 @@ void BodyIteration::answer_correction(const BodyStep& step, dynamics::BodyRespon
   }
 }
 
+double BodyIteration::size_of_correction(const BodyStep& step,
+                                         const dynamics::BodyResponse& correction) const {
+  return size_of(frame_answer(step.compliance, correction.frame_load), L_);
+}
+
 BodyIteration::Moved BodyIteration::advance(BodyStep& step,
                                             const dynamics::BodyResponse& correction,
                                             const dynamics::BodyResponse& response) {

@@ -32,6 +32,9 @@ class BodyIteration {
   /// @param correction what does not apply to the body is set to zero
   void answer_correction(const BodyStep& step, dynamics::BodyResponse& correction);
 
+  /// Motion of the frame under them [m].
+  double size_of_correction(const BodyStep& step, const dynamics::BodyResponse& correction) const;
+
   /// Changes in metres; NaN if a motion is not a number.
   struct Moved {
     double frame = 0;      ///< change of the frame

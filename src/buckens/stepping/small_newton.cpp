@@ -183,6 +183,7 @@ void SmallNewton::find_soft_rows(std::vector<BodyStep>& bodies, double t, bool b
 
 void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t, bool begins_here) {
   has_accepted_stands_ = false;
+  sliding_.reset();
   find_motions(bodies);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     bodies[b].compliance = shares_[b].frame_compliance(bodies[b], at_evaluation()[b]);
@@ -329,29 +330,6 @@ void SmallNewton::watch_rows(double t, StepReport& report) {
                                                   compliance_, rows_in_use_));
 }
 
-void SmallNewton::solve_correction(const std::vector<BodyStep>& bodies) {
-  const auto in_use = static_cast<Eigen::Index>(rows_in_use_.size());
-  E_.setZero(condensation_->size());
-  if (corrects_positions()) {
-    for (Eigen::Index k = 0; k < in_use; ++k) {
-      const int row = rows_in_use_[static_cast<std::size_t>(k)];
-      // A correction of positions rolls as well: of rows without a position it changes nothing.
-      if (rates_only_[static_cast<std::size_t>(row)]) continue;
-      E_[k] = residuals_.g_dot[row] / scheme_.end_rate - residuals_.g[row];
-    }
-    for (std::size_t k = 0; k < soft_.rows.size(); ++k) {
-      const loads::RigidRow* row = closed_row(k);
-      if (row == nullptr || !row->holds_position) continue;
-      E_[in_use + static_cast<Eigen::Index>(k)] = row->slip / scheme_.end_rate - row->gap;
-    }
-    condensation_->solve_in_place(E_);
-  }
-  condensation_->gather(E_, correction_);
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    shares_[b].answer_correction(bodies[b], correction_[b]);
-  }
-}
-
 void SmallNewton::solve_multipliers(double t) {
   const auto in_use = static_cast<Eigen::Index>(rows_in_use_.size());
   const dynamics::RowBlocks& rows = condensation_->test_rows();
@@ -436,7 +414,7 @@ double SmallNewton::find_residuals(const std::vector<BodyStep>& bodies) {
 
 IterationEnd::Change SmallNewton::move(std::vector<BodyStep>& bodies, double t, Vector& lambda,
                                        StepReport& report) {
-  solve_correction(bodies);
+  solve_correction(bodies, t);
   solve_multipliers(t);
   held_.release();
   const Change change = update(bodies, lambda);

@@ -99,7 +99,17 @@ class SmallNewton {
   /// Evaluates and moves until converged. @param change of the previous iteration, if any
   void settle(std::vector<BodyStep>& bodies, double t, linalg::Vector& lambda, Change change,
               StepReport& report);
-  void solve_correction(const std::vector<BodyStep>& bodies);
+  /// What corrections have to close of the rows with positions.
+  void find_open_positions();
+  void solve_correction(const std::vector<BodyStep>& bodies, double t);
+  /// Largest motion of a frame by correction_ [m].
+  double size_of_correction(const std::vector<BodyStep>& bodies) const;
+  /// Finds the correction where places stick. Those that stick in a ring, such as balls that wedge
+  /// each other, may leave only rolling a long way to close a gap of micrometres, which opens more
+  /// than it closes: then places slide by corrections. @return false if none sticks
+  bool correct_by_sliding(const std::vector<BodyStep>& bodies, double t);
+  /// The rows of corrections without those that hold rates only. Null: they are dependent
+  std::unique_ptr<dynamics::MultiplierCondensation> condense_without_sticking(double t);
   void solve_multipliers(double t);
   Change update(std::vector<BodyStep>& bodies, linalg::Vector& lambda);
   /// Motions at the instant at which the equations hold.
@@ -200,6 +210,8 @@ class SmallNewton {
   IterationEnd ending_;
   dynamics::JointSet joints_;
   std::vector<char> rates_only_;   // of each row of λ
+  /// Of corrections for which places slide; null: in this step none had to.
+  std::unique_ptr<dynamics::MultiplierCondensation> sliding_;
   std::vector<int> place_in_use_;  // of each row of λ among the rows in use, −1: not in use
   std::vector<dynamics::BodyMotion> end_, evaluation_, uncorrected_;
   dynamics::JointResiduals residuals_;        // at the end of the step

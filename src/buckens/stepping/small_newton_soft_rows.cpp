@@ -17,6 +17,15 @@ constexpr double kOpenGap = 0.1;
 // Share of its own force that a row of a mix keeps in the tangent. The matrix of multipliers loses
 // as many digits, and the iteration gains as many in each round.
 constexpr double kOwnShare = 1e-4;
+// Stiffness by what a body gives [-]: friction of places whose load tends to nothing, as of balls
+// that fall side by side. Squares of its inverse would be too large for a number.
+constexpr double kNoStiffness = 1e-150;
+
+/// That of the equations of a step. @return 0 where it is too small to have an inverse
+double stiffness_in_step(const Scheme& scheme, double stiffness, double damping) {
+  const double asked = scheme.weight * stiffness + scheme.mean_rate * damping;
+  return scheme.force * std::abs(asked) < kNoStiffness ? 0.0 : asked;
+}
 
 }  // namespace
 
@@ -44,7 +53,7 @@ void SmallNewton::set_soft_rows(const std::vector<double>& stiffness,
       continue;
     }
     const double elastic = scheme_.weight * stiffness[k];
-    const double k_eff = elastic + scheme_.mean_rate * damping[k];
+    const double k_eff = stiffness_in_step(scheme_, stiffness[k], damping[k]);
     if (k_eff != 0.0) {
       condensation_->set_row(row, soft_.rows[k]);
     } else if (give_to_corrections_[k]) {
@@ -77,7 +86,8 @@ void SmallNewton::set_slopes() {
     if (place < 0 || soft_.is_closed[soft] || held_.holds(slope.soft)) continue;
     add_slope(slope.soft, place, slope.value);
     // Where a force only follows multipliers, bodies move by it all the same.
-    const bool gives_way = soft_.stiffness[soft] != 0.0 || soft_.damping[soft] != 0.0;
+    const bool gives_way =
+        stiffness_in_step(scheme_, soft_.stiffness[soft], soft_.damping[soft]) != 0.0;
     if (gives_way || slope.soft == sliding) continue;
     sliding = slope.soft;
     condensation_->set_row(in_use + slope.soft, dynamics::SystemRow{}, soft_.rows[soft]);
@@ -190,6 +200,7 @@ bool SmallNewton::let_jumping_go(double change) {
 
 bool SmallNewton::form_tangent(std::vector<BodyStep>& bodies, bool rigid_rows_moved) {
   if (rigid_rows_moved) {
+    sliding_.reset();
     for (BodyStep& body : bodies) body.drop_correction();
     slopes_in_use_.clear();
     condensation_->set_slopes(slopes_in_use_);
