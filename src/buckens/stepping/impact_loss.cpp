@@ -48,7 +48,8 @@ void Impacts::lose(const Vector& P, const Vector& jump,
     const double loss = -P[i] * (met + 0.5 * jump[i]);
     // What strikes gives nothing back: less than none is what lifts bodies out of an end that they
     // were in before, for the balance to show.
-    lose(load, !is_slip && touch.strikes ? std::max(0.0, loss) : loss);
+    const bool gives_nothing = !is_slip && touch.strikes && !touch.is_wedged;
+    lose(load, gives_nothing ? std::max(0.0, loss) : loss);
   }
 }
 

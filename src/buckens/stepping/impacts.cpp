@@ -166,6 +166,7 @@ bool Impacts::strike(const std::vector<dynamics::BodyMotion>& then,
     }
     const Vector jump = D * P;
     if (stop_bouncing(gaining(P, jump, then))) return false;
+    share_instants(P);
     move_bodies(P);
     land(P, jump);
     lose(P, jump, then);
@@ -464,41 +465,6 @@ void Impacts::condense(const std::vector<dynamics::BodyMotion>& motions,
       fmt::format("the joint equations have become dependent (a singular position) at an impact at "
                   "t = {:.6g} s; look for a dead centre of the mechanism there",
                   t));
-}
-
-void Impacts::move_bodies(const Vector& P) {
-  for (std::size_t b = 0; b < jumps_.size(); ++b) {
-    jumps_[b].velocity.setZero();
-    jumps_[b].shift.setZero();
-    jumps_[b].impulse.setZero(model_.bodies[b].num_interface_rows());
-    jumps_[b].impulse_time.setZero(model_.bodies[b].num_interface_rows());
-  }
-  double strength = 0;
-  rest_ = 0;
-  for (std::size_t k = 0; k < num_pushes(); ++k) {
-    const double p = P[static_cast<Eigen::Index>(k)];
-    if (p == 0.0) continue;
-    const bool is_slip = k >= touches_.size();
-    const Touch& touch = touches_[is_slip ? slips_[k - touches_.size()].touch : k];
-    if (!is_slip) {
-      const double weight = p * std::abs(touch.target);
-      strength += weight;
-      // Impulses of friction that hold to the end of the step have its accelerations in them.
-      const bool has_all = touch.stays && !laws_[touch.law].frictions.empty();
-      if (!has_all) rest_ += weight * touch.rest;
-    }
-    const Push& own = push(k);
-    for (const PushedBody& moved : own.bodies) {
-      BodyJump& jump = jumps_[moved.body];
-      jump.velocity += p * moved.u;
-      // What no joint holds moves on by itself; else joints would open between it and meshes.
-      const bool goes_by_itself = touch.is_of_step && is_free_[moved.body] != 0;
-      jump.shift += (p * (goes_by_itself ? touch.since : touch.rest)) * moved.u;
-      jump.impulse += p * moved.load;
-      jump.impulse_time += (p * touch.rest) * moved.load;
-    }
-  }
-  if (strength > 0.0) rest_ /= strength;
 }
 
 void Impacts::clear_ends(const Vector& P, const std::vector<dynamics::BodyMotion>& then,

@@ -113,6 +113,8 @@ class Impacts {
     bool is_elsewhere = false;
     double rate = 0;  ///< away from the end, at the end of the step
     double sign = 1;  ///< of the coordinate, away from the end
+    /// Impulses cancel each other: only all of them together say what is lost.
+    bool is_wedged = false;
   };
   /// Slip of a stop that is reached, along one direction.
   struct Slip : Push {
@@ -183,6 +185,10 @@ class Impacts {
                 const model::RowMemory* memory, double t);
   void move_bodies(const linalg::Vector& P);
   /// Takes bodies out of ends into which impulses of the step would still let them go.
+  /// Where impulses cancel each other, as those of balls that wedge each other may, to more than
+  /// what strikes brings with it, their differences of instants do not belong to motions: these
+  /// islands go on from the instant of their strongest blow.
+  void share_instants(const linalg::Vector& P);
   void clear_ends(const linalg::Vector& P, const std::vector<dynamics::BodyMotion>& then,
                   const std::vector<int>& rows_in_use, const model::RowMemory* memory, double t);
   void land(const linalg::Vector& P, const linalg::Vector& jump);
