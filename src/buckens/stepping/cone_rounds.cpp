@@ -35,9 +35,9 @@ double parting(const ConeRows& place, const Vector& w) {
 
 }  // namespace
 
-bool find_in_cones(const linalg::SparseMatrix& D, const Vector& b,
-                   const std::vector<ConeRows>& places, const std::function<bool(Vector&)>& finish,
-                   Vector& P) {
+ConeEnd find_in_cones(const linalg::SparseMatrix& D, const Vector& b,
+                      const std::vector<ConeRows>& places,
+                      const std::function<bool(Vector&)>& finish, Vector& P) {
   ConeProgram program(D, places);
   const double size = b.cwiseAbs().maxCoeff();
   Vector eased = b;
@@ -45,7 +45,7 @@ bool find_in_cones(const linalg::SparseMatrix& D, const Vector& b,
   Vector best;
   double least = HUGE_VAL;
   for (int round = 1; round <= kMostSlipRounds; ++round) {
-    if (!program.solve(eased, P)) return false;
+    if (!program.solve(eased, P)) return ConeEnd::none;
     const Vector w = D * P - b;
     double change = 0.0;
     for (const ConeRows& place : places) {
@@ -65,13 +65,13 @@ bool find_in_cones(const linalg::SparseMatrix& D, const Vector& b,
     // grow.
     if (finish(exact) && (D * (exact - P)).cwiseAbs().maxCoeff() <= kNear * size) {
       P = std::move(exact);
-      return true;
+      return ConeEnd::exact;
     }
     if (is_same) break;
     next_finish *= 2;
   }
   P = std::move(best);
-  return least <= kHardlyOtherSlip * size;
+  return least <= kHardlyOtherSlip * size ? ConeEnd::near : ConeEnd::none;
 }
 
 }  // namespace buckens::stepping

@@ -214,10 +214,11 @@ class GroupSolver {
     }
   }
 
-  /// All places at once, where they wedge each other. @return whether they are found
-  bool find_in_cones(Vector& P) const {
+  /// All places at once, where they wedge each other.
+  ConeEnd find_in_cones(Vector& P) const {
     const auto exact = [this](Vector& near) { return finish(near); };
-    return stepping::find_in_cones(D_.sparseView(), b_, rows_, exact, P) && is_good(P);
+    const ConeEnd end = stepping::find_in_cones(D_.sparseView(), b_, rows_, exact, P);
+    return is_good(P) ? end : ConeEnd::none;
   }
 
  private:
@@ -230,8 +231,9 @@ class GroupSolver {
   std::vector<ConeRows> rows_;
 };
 
+/// @param are_near see solve_impact()
 Vector solve_together(const Matrix& D, const Vector& b, Eigen::Index num_across,
-                      const std::vector<ImpactSlip>& slips) {
+                      const std::vector<ImpactSlip>& slips, bool* are_near) {
   const auto across = Eigen::seqN(Eigen::Index{0}, num_across);
   Vector P = Vector::Zero(D.rows());
   try {
@@ -241,7 +243,10 @@ Vector solve_together(const Matrix& D, const Vector& b, Eigen::Index num_across,
   }
   if (slips.empty()) return P;
   const GroupSolver solver(D, b, num_across, slips);
-  if (solver.find_in_turn(P) || solver.find_in_cones(P)) return P;
+  if (solver.find_in_turn(P)) return P;
+  const ConeEnd end = solver.find_in_cones(P);
+  if (are_near != nullptr && end == ConeEnd::near) *are_near = true;
+  if (end != ConeEnd::none) return P;
   throw StepFailure(
       "no impulses satisfy all rigid contacts with friction that are struck at once: friction "
       "jams; give the contact a `stiffness`, or less `static`");
@@ -322,9 +327,10 @@ std::vector<ConeRows> cones_of(Eigen::Index num_across, const std::vector<Impact
 }  // namespace
 
 Vector solve_impact(const linalg::SparseMatrix& D, const Vector& b, Eigen::Index num_across,
-                    const std::vector<ImpactSlip>& slips, std::vector<Eigen::Index>* jammed) {
+                    const std::vector<ImpactSlip>& slips, std::vector<Eigen::Index>* jammed,
+                    bool* are_near) {
   if (slips.empty() && D.rows() <= kMostDense) {
-    return solve_together(Matrix(D), b, num_across, slips);
+    return solve_together(Matrix(D), b, num_across, slips, are_near);
   }
   Vector P(D.rows());
   const ImpactGroups groups(D, slips);
@@ -342,8 +348,8 @@ Vector solve_impact(const linalg::SparseMatrix& D, const Vector& b, Eigen::Index
     const Eigen::Index across = place_of(num_across);
     try {
       P(group) = part.rows() <= kMostDense
-                     ? solve_together(Matrix(part), b(group), across, own)
-                     : solve_large_impact(part, b(group), cones_of(across, own));
+                     ? solve_together(Matrix(part), b(group), across, own, are_near)
+                     : solve_large_impact(part, b(group), cones_of(across, own), are_near);
     } catch (const StepFailure&) {
       if (jammed == nullptr) throw;
       jammed->insert(jammed->end(), group.begin(), group.end());

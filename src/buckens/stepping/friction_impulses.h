@@ -33,9 +33,10 @@ struct ImpactSlip {
 /// @param num_across number of one-sided rows
 /// @param jammed takes the rows of places whose impulses are left out since friction holds what b
 /// would part: no finite impulses do both. Null: that is an error
+/// @param are_near set where some are those of ConeEnd::near
 /// @throws StepFailure if they do not come to an agreement: friction that jams
 linalg::Vector solve_impact(const linalg::SparseMatrix& D, const linalg::Vector& b,
                             Eigen::Index num_across, const std::vector<ImpactSlip>& slips,
-                            std::vector<Eigen::Index>* jammed = nullptr);
+                            std::vector<Eigen::Index>* jammed = nullptr, bool* are_near = nullptr);
 
 }  // namespace buckens::stepping

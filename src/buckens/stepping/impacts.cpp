@@ -198,7 +198,8 @@ linalg::SparseMatrix Impacts::answers() const {
   return PushAnswers::along_all(pushes);
 }
 
-Vector Impacts::solve(const linalg::SparseMatrix& D, std::vector<Eigen::Index>* jammed) const {
+Vector Impacts::solve(const linalg::SparseMatrix& D, std::vector<Eigen::Index>* jammed) {
+  are_near_ = false;
   Vector b(static_cast<Eigen::Index>(num_pushes()));
   for (std::size_t row = 0; row < num_pushes(); ++row) {
     b[static_cast<Eigen::Index>(row)] =
@@ -218,7 +219,7 @@ Vector Impacts::solve(const linalg::SparseMatrix& D, std::vector<Eigen::Index>* 
     slips.push_back({across, static_cast<Eigen::Index>(touches_.size() + k), 1,
                      friction_of(slips_[k]).law->data_at(signals_).coefficient(std::sqrt(square))});
   }
-  return solve_impact(D, b, static_cast<Eigen::Index>(touches_.size()), slips, jammed);
+  return solve_impact(D, b, static_cast<Eigen::Index>(touches_.size()), slips, jammed, &are_near_);
 }
 
 /// Adds the directions in which friction of a stop that is reached acts.

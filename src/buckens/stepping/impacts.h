@@ -75,6 +75,8 @@ class Impacts {
   int count() const { return count_; }
   /// Of them, those that should have rebounded, and were stopped since friction jams.
   int jammed() const { return jammed_; }
+  /// Whether some of the impulses are those of ConeEnd::near.
+  bool are_near() const { return are_near_; }
   /// From their mean instant, weighted by their strength, to the end of the step [s].
   double rest() const { return rest_; }
 
@@ -111,10 +113,10 @@ class Impacts {
     /// At the impact its row is that of another place, to which the rate asked for does not belong:
     /// the one at the end of the step acts.
     bool is_elsewhere = false;
-    double rate = 0;  ///< away from the end, at the end of the step
-    double sign = 1;  ///< of the coordinate, away from the end
     /// Impulses cancel each other: only all of them together say what is lost.
     bool is_wedged = false;
+    double rate = 0;  ///< away from the end, at the end of the step
+    double sign = 1;  ///< of the coordinate, away from the end
   };
   /// Slip of a stop that is reached, along one direction.
   struct Slip : Push {
@@ -166,7 +168,7 @@ class Impacts {
   bool strike(const std::vector<dynamics::BodyMotion>& then, const std::vector<int>& rows_in_use,
               const model::RowMemory* memory, double t);
   /// @param jammed see solve_impact()
-  linalg::Vector solve(const linalg::SparseMatrix& D, std::vector<Eigen::Index>* jammed) const;
+  linalg::Vector solve(const linalg::SparseMatrix& D, std::vector<Eigen::Index>* jammed);
   /// @return whether any of them would have bounced
   bool stop_bouncing(const std::vector<Eigen::Index>& rows);
   double restitution(const Law& law, double approach) const;
@@ -183,12 +185,12 @@ class Impacts {
   void condense(const std::vector<dynamics::BodyMotion>& motions,
                 const std::vector<BodyStep>& bodies, const std::vector<int>& rows_in_use,
                 const model::RowMemory* memory, double t);
-  void move_bodies(const linalg::Vector& P);
-  /// Takes bodies out of ends into which impulses of the step would still let them go.
   /// Where impulses cancel each other, as those of balls that wedge each other may, to more than
   /// what strikes brings with it, their differences of instants do not belong to motions: these
   /// islands go on from the instant of their strongest blow.
   void share_instants(const linalg::Vector& P);
+  void move_bodies(const linalg::Vector& P);
+  /// Takes bodies out of ends into which impulses of the step would still let them go.
   void clear_ends(const linalg::Vector& P, const std::vector<dynamics::BodyMotion>& then,
                   const std::vector<int>& rows_in_use, const model::RowMemory* memory, double t);
   void land(const linalg::Vector& P, const linalg::Vector& jump);
@@ -235,6 +237,7 @@ class Impacts {
   double length_ = 0;  // of positions in the step looked at last [m]
   double loss_ = 0, rest_ = 0;
   int count_ = 0, jammed_ = 0;
+  bool are_near_ = false;
 };
 
 }  // namespace buckens::stepping

@@ -63,11 +63,16 @@ class ManyPlaces {
     }
   }
 
-  Vector solve() {
+  /// @param are_near see solve_large_impact()
+  Vector solve(bool* are_near) {
     Vector P = Vector::Zero(b_.size());
     if (find_in_turn(P)) return P;
     const auto exact = [this](Vector& near) { return find_by_newton(near) && is_good(near); };
-    if (rubs_ && find_in_cones(given_, b_, places_, exact, P) && is_good(P)) return P;
+    const ConeEnd end = rubs_ ? find_in_cones(given_, b_, places_, exact, P) : ConeEnd::none;
+    if (end != ConeEnd::none && is_good(P)) {
+      if (are_near != nullptr && end == ConeEnd::near) *are_near = true;
+      return P;
+    }
     throw StepFailure(fmt::format(
         "no impulses were found that satisfy all {} rigid contacts that press each other at once; "
         "give them a `stiffness`, or less `static`",
@@ -233,8 +238,8 @@ class ManyPlaces {
 }  // namespace
 
 Vector solve_large_impact(const linalg::SparseMatrix& D, const Vector& b,
-                          const std::vector<ConeRows>& places) {
-  return ManyPlaces(D, b, places).solve();
+                          const std::vector<ConeRows>& places, bool* are_near) {
+  return ManyPlaces(D, b, places).solve(are_near);
 }
 
 }  // namespace buckens::stepping

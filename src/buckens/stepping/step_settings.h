@@ -74,6 +74,9 @@ struct StepReport {
   double impact_loss = 0;      ///< energy lost in them [J]
   /// Of them, those that should have rebounded and were stopped, since friction jams.
   int jammed_impacts = 0;
+  /// Whether places that slide part or close by a millionth of the largest rate at most: impulses
+  /// of ConeEnd::near.
+  bool has_near_impulses = false;
   std::span<const ImpactShare> impact_shares{};  ///< of the loss, valid until the next step
   /// Per body, what it had at the end of the step before blows that are counted by the energy that
   /// all bodies have less of; empty where there are none. Valid until the next step.

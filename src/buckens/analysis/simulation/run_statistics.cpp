@@ -56,6 +56,7 @@ void RunStatistics::add_step(const stepping::StepReport& report, const model::St
   if (report.large_solve_rounds > 1) ++repeated_solves_;
   if (report.has_undecided_rows) ++undecided_steps_;
   impacts_ += report.impacts;
+  if (report.has_near_impulses) ++steps_with_near_impulses_;
   jammed_impacts_ += report.jammed_impacts;
   impact_loss_ += report.impact_loss;
   joints_.add_step(report, state);
@@ -210,6 +211,10 @@ void RunStatistics::fill(const stepping::TimeMarch& march, results::RunSummary& 
   if (jammed_impacts_ > 0) {
     summary.measures.emplace_back("jammed_impacts", static_cast<double>(jammed_impacts_));
     summary.warnings.push_back(describe_jammed(jammed_impacts_, impacts_));
+  }
+  if (steps_with_near_impulses_ > 0) {
+    summary.measures.emplace_back("steps_with_near_impulses",
+                                  static_cast<double>(steps_with_near_impulses_));
   }
   if (undecided_steps_ > 0) {
     summary.measures.emplace_back("undecided_steps", static_cast<double>(undecided_steps_));

@@ -52,8 +52,9 @@ class RunStatistics {
   long repeated_solves_ = 0;  // steps with more than one large solve
   long undecided_steps_ = 0;  // that took the last stands of rigid rows
   long impacts_ = 0;
-  long jammed_impacts_ = 0;  // that friction kept from rebounding
-  double impact_loss_ = 0;   // [J]
+  long steps_with_near_impulses_ = 0;  // see stepping::StepReport
+  long jammed_impacts_ = 0;            // that friction kept from rebounding
+  double impact_loss_ = 0;             // [J]
   results::Residuals residuals_;
   JointTrust joints_;
   EnergyTrust energy_;

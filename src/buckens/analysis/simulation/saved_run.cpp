@@ -88,6 +88,7 @@ void RunStatistics::visit_saved(const base::SaveVisit& visit) {
   visit.count("repeated_solves", repeated_solves_, 0, kMostCounted);
   visit.count("undecided_steps", undecided_steps_, 0, kMostCounted);
   visit.count("impacts", impacts_, 0, kMostCounted);
+  visit.count("steps_with_near_impulses", steps_with_near_impulses_, 0, kMostCounted);
   visit.count("jammed_impacts", jammed_impacts_, 0, kMostCounted);
   visit.number("impact_loss", impact_loss_);
   visit.number("position_residual", residuals_.position);
