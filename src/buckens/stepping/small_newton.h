@@ -209,7 +209,7 @@ class SmallNewton {
 
   IterationEnd ending_;
   dynamics::JointSet joints_;
-  std::vector<char> rates_only_;   // of each row of λ
+  std::vector<char> rates_only_;  // of each row of λ
   /// Of corrections for which places slide; null: in this step none had to.
   std::unique_ptr<dynamics::MultiplierCondensation> sliding_;
   std::vector<int> place_in_use_;  // of each row of λ among the rows in use, −1: not in use
