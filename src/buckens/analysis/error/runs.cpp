@@ -70,7 +70,7 @@ results::ErrorStatement state_errors(const ErrorVariants& variants, const Sensor
       if (complete(source, *run.summary(), *further->summary())) {
         estimate.add(std::move(source), *further);
       } else {
-        estimate.note(fmt::format("{}: not assessed, {} takes {} steps in place of {}",
+        estimate.note(fmt::format("{}: not assessed, {} takes {} steps instead of {}",
                                   variant.source.name, variant.source.what,
                                   further->summary()->steps, run.summary()->steps));
       }
@@ -96,17 +96,17 @@ std::vector<std::string> doubts(const results::ErrorStatement& statement) {
     worst = &sensor;
   }
   if (!unresolved.empty()) {
-    out.push_back(fmt::format(
-        "with half the step the curves of {} come out entirely different: the motion is chaotic or "
-        "the step too long; shorten the step, or trust means and extremes only",
-        unresolved));
+    out.push_back(
+        fmt::format("halving the step changes the curves of {} completely: the motion is chaotic "
+                    "or the step is too long; shorten the step, or rely on means and extremes only",
+                    unresolved));
   }
   if (worst != nullptr && !worst->peak.parts.empty()) {
     const auto part = std::max_element(worst->peak.parts.begin(), worst->peak.parts.end());
     const auto& source =
         statement.sources[static_cast<std::size_t>(part - worst->peak.parts.begin())];
     out.push_back(
-        fmt::format("the error statement gives {:.2g} % on the peak of {}, most of it from {}; {}",
+        fmt::format("the error statement gives {:.2g} % for the peak of {}, mostly due to {}; {}",
                     100.0 * most, worst->name, source.name, remedy_for(source.name)));
   }
   return out;

@@ -77,10 +77,10 @@ class VariantList {
       return "the body is given by matrices, which have no elements to refine";
     }
     if (std::holds_alternative<fem::StructureSpec>(spec->kind)) {
-      return "its elements are given one by one and cannot be refined";
+      return "its elements are listed individually and cannot be refined";
     }
-    return "it comes from a file and cannot be refined, and errors are estimated from strains for "
-           "solids in one frame only; compare with a finer file";
+    return "it comes from a file and cannot be refined, and error estimates from strains exist for "
+           "solids in one frame only; compare with a finer mesh file";
   }
 
   void add_time_step() {
@@ -115,9 +115,9 @@ class VariantList {
     done = refine_meshes(other, MeshChange::coarser);
     if (!done.is_possible) {
       return leave_out(
-          "mesh", fmt::format("twice as many elements each way would be too many ({:.2g} unknowns "
-                              "in place of {:.2g}), and the divisions are not even, so that a "
-                              "coarser mesh cannot be compared; make them even",
+          "mesh", fmt::format("twice as many elements in each direction would be too many ({:.2g} "
+                              "unknowns instead of {:.2g}), and not all divisions are even, so a "
+                              "coarser mesh cannot be used for comparison either; make them even",
                               8 * unknowns_, unknowns_));
     }
     // Seen from the coarser mesh the error of this one is 1/r² of its own.
@@ -177,7 +177,7 @@ class VariantList {
                           spec.name, 100.0 * *share);
       if (has_shells(spec.name)) {
         leave_out(fmt::format("shells of \"{}\"", spec.name),
-                  "errors are estimated from strains for solids only");
+                  "error estimates from strains exist for solids only");
       }
     }
     if (!what.empty()) add("mesh of files", what, 0, kSafetyOfRecovery, std::move(other));
@@ -210,7 +210,7 @@ class VariantList {
     for (body::BodySpec& spec : other.bodies) {
       if (spec.flexibility == body::Flexibility::quasi_static) {
         leave_out(fmt::format("modes of \"{}\"", spec.name),
-                  "what a quasi-static body leaves out is not assessed");
+                  "the dynamics that a quasi-static body neglects are not assessed");
       } else if (!spec.reduction.is_none()) {
         is_reduced = true;
         improve(spec.reduction, is_full);
@@ -246,8 +246,8 @@ class VariantList {
 void require_sensors(const model::ModelDescription& description) {
   if (!description.output.sensors.empty()) return;
   throw InputError(description.where,
-                   "an error statement needs sensors, and the model has none; add what you want "
-                   "to know, such as `output: {sensors: {tip: {position: rod/end}}}`");
+                   "an error statement needs sensors, and the model has none; add the quantities "
+                   "of interest, such as `output: {sensors: {tip: {position: rod/end}}}`");
 }
 
 std::vector<std::string> bodies_to_watch(const ModelDescription& description) {

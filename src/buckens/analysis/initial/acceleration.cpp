@@ -96,8 +96,8 @@ class Accelerations {
     }
     if (!stepping::factorise_closed_rows(*condensation_, rows_, compliance_, give)) {
       throw NumericalError(
-          "the joint equations are dependent in the initial position (a dead centre); start "
-          "elsewhere");
+          "the joint equations are dependent in the initial position (a dead centre); choose "
+          "another initial position");
     }
   }
 

@@ -62,10 +62,10 @@ class Impulses {
   void undo(const std::vector<double>& values, Take&& take) {
     dynamics::MultiplierCondensation condensation(static_cast<int>(model_.bodies.size()), rows_);
     if (!stepping::factorise_closed_rows(condensation, rows_, compliance_, give_)) {
-      throw NumericalError(
-          fmt::format("the joint equations have become dependent (a singular position) after an "
-                      "impact at t = {:.6g} s; look for a dead centre of the mechanism there",
-                      t_));
+      throw NumericalError(fmt::format(
+          "the joint equations have become dependent after an impact at t = {:.6g} s (a singular "
+          "position); check whether the mechanism is at a dead centre there",
+          t_));
     }
     linalg::Vector X = -Eigen::Map<const linalg::Vector>(values.data(), std::ssize(values));
     condensation.solve_in_place(X);

@@ -168,10 +168,10 @@ std::vector<std::string> judge_assembly(const model::BuiltModel& built,
     out.push_back(move.where.empty() ? text : move.where.text() + ": " + text);
   }
   if (count > kMostMovesTold) {
-    out.push_back(fmt::format(
-        "assembly moved {} more bodies; the farthest of all by {:.4g} m. `buckens check "
-        "--json` lists them",
-        count - kMostMovesTold, farthest));
+    out.push_back(
+        fmt::format("assembly moved {} more bodies; the largest displacement of all is {:.4g} m. "
+                    "`buckens check --json` lists them",
+                    count - kMostMovesTold, farthest));
   }
   return out;
 }

@@ -21,9 +21,9 @@ void require_own_shape(const model::BuiltModel& built, const model::WholeBody& w
   if (!body.is_flexible()) {
     why = "is rigid and has no nodes";
   } else if (body.flexible->is_quasi_static) {
-    why = "is quasi-static and finds its shape itself";
+    why = "is quasi-static, and its shape follows from its loads";
   } else if (initial.start == model::StartKind::static_equilibrium) {
-    why = "starts in static equilibrium, which is its shape";
+    why = "starts in static equilibrium, which determines its shape";
   } else if (initial.preload) {
     why = "is preloaded, which finds its shape";
   }

@@ -225,8 +225,7 @@ class PositionClosure {
   const model::Joint* joint = has_joints ? worst_joint(model, g_dot) : nullptr;
   const std::string left = has_joints ? describe_gap(joint, g_dot, "/s") : std::string();
   if (starts.empty()) {
-    throw ModelError(joint->where, "initial velocities contradict the joints; left over at " +
-                                       left +
+    throw ModelError(joint->where, "initial velocities contradict the joints; residual at " + left +
                                        "; correct `initial` or the law of motion of the drive");
   }
   throw ModelError(starts.where(),

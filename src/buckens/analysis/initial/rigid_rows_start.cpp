@@ -236,8 +236,8 @@ void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& me
   }
   if (unrest.moved.empty()) {
     throw NumericalError(fmt::format(
-        "load \"{}\" at t = {:.6g} s: its friction has no equilibrium with the forces that press "
-        "the bodies, it jams; give the contact a `stiffness`, or less `static`",
+        "load \"{}\" at t = {:.6g} s: its friction cannot balance the forces that press the bodies "
+        "together, and it jams; give the contact a `stiffness`, or reduce `static`",
         unrest.contact, state.t));
   }
   throw NumericalError(

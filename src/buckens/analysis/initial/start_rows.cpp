@@ -94,7 +94,7 @@ std::string StartRows::describe(const std::vector<dynamics::BodyMotion>& motions
     if (held_ == Held::values && is_angle(start)) {
       found = wanted + std::remainder(found - wanted, kTurn);
     }
-    out.push_back(fmt::format("\"{}\" at {:.6g} {}{} where {:.6g} is asked for",
+    out.push_back(fmt::format("\"{}\" at {:.6g} {}{} where {:.6g} was requested",
                               model_.joints[joint].name, found, is_angle(start) ? "rad" : "m",
                               held_ == Held::values ? "" : "/s", wanted));
   }

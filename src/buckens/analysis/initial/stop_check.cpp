@@ -33,18 +33,18 @@ void refuse_beyond_stops(const model::Model& model, const model::State& state) {
       continue;
     }
     if (load.is_among_joints) {
-      throw ModelError(fmt::format(
-          "joint \"{}\": its teeth start {:.3g} m beyond the play of their flanks, which do not "
-          "give way; start the bodies so that the teeth stand in a space, or from the equilibrium "
-          "(`start: static`), or use an `elastic-gear`",
-          load.name, -contact.gap));
+      throw ModelError(
+          fmt::format("joint \"{}\": its teeth start {:.3g} m beyond the backlash, and their "
+                      "flanks are rigid; place the bodies so that each tooth lies in a tooth "
+                      "space, start from equilibrium (`start: static`), or use an `elastic-gear`",
+                      load.name, -contact.gap));
     }
-    throw ModelError(fmt::format(
-        "load \"{}\": {} at {:.6g} {}, {:.3g} beyond the end of its free way; a "
-        "rigid stop holds, but does not push back; start within the stops or from the equilibrium "
-        "(`start: static`), or give this one a `stiffness`",
-        load.name, load.joint >= 0 ? "its joint stands" : "its markers stand", value,
-        is_angle ? "rad" : "m", -contact.gap));
+    throw ModelError(
+        fmt::format("load \"{}\": {} at {:.6g} {}, {:.3g} beyond the end of its free travel; a "
+                    "rigid stop blocks further travel but does not push back; start within the "
+                    "stops or from equilibrium (`start: static`), or give this stop a `stiffness`",
+                    load.name, load.joint >= 0 ? "its joint stands" : "its markers stand", value,
+                    is_angle ? "rad" : "m", -contact.gap));
   }
 }
 

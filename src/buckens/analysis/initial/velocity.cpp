@@ -28,13 +28,15 @@ class Setter {
     set_frames();
     if (!spec_.nodal_velocity) return;
     if (!body(whole_.first).is_flexible()) {
-      throw InputError(spec_.where, fmt::format("initial: body \"{}\" is rigid, it has no nodal "
-                                                "velocities; give `velocity` instead",
-                                                spec_.name));
+      throw InputError(
+          spec_.where,
+          fmt::format(
+              "initial: body \"{}\" is rigid and has no nodal velocities; give `velocity` instead",
+              spec_.name));
     }
     if (body(whole_.first).flexible->is_quasi_static) {
-      throw InputError(spec_.where, fmt::format("initial: body \"{}\" is quasi-static, it deforms "
-                                                "without rates; remove `nodal-velocity`",
+      throw InputError(spec_.where, fmt::format("initial: body \"{}\" is quasi-static, so its "
+                                                "deformation has no rates; remove `nodal-velocity`",
                                                 spec_.name));
     }
     set_nodes(*spec_.nodal_velocity);

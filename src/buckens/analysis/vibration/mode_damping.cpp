@@ -68,11 +68,11 @@ std::optional<double> asked_ratio(const fem::DampingSpec& spec, double frequency
 
 std::string remedy(const fem::DampingSpec& spec) {
   if (spec.of == fem::DampedModes::free && spec.at.size() == 2) {
-    return "`of: free` means vibrations of the body alone in space; use `of: held` for those of "
-           "the assembled model";
+    return "`of: free` refers to the vibrations of the unsupported body; use `of: held` for those "
+           "of the assembled model";
   }
-  return "other bodies move with it, or the position is another one; choose `ratio` and `at` so "
-         "that the list of `buckens check` is what you want";
+  return "other bodies move with it, or the position differs; adjust `ratio` and `at` until "
+         "`buckens check` lists the damping you want";
 }
 
 ModeDamping describe(const model::BuiltModel& built, const VibrationReport& vibrations,
@@ -152,10 +152,10 @@ ModeDampingReport report_mode_damping(const model::BuiltModel& built,
   Eigen::Index unknowns = 0;
   for (const body::Body& body : built.model.bodies) unknowns += body.num_dofs();
   if (unknowns > kMostCheckedUnknowns) {
-    out.notes.push_back(fmt::format(
-        "damping ratios of the assembled system are not listed for {} unknowns; `buckens modes "
-        "--system` has them",
-        unknowns));
+    out.notes.push_back(
+        fmt::format("damping ratios of the assembled system are not listed for {} unknowns; "
+                    "`buckens modes --system` lists them",
+                    unknowns));
     return out;
   }
   try {
@@ -166,8 +166,8 @@ ModeDampingReport report_mode_damping(const model::BuiltModel& built,
       if (vibration.square > 0.0) out.modes.push_back(describe(built, vibrations, vibration));
     }
   } catch (const Error& error) {
-    out.notes.push_back(
-        fmt::format("damping ratios of the assembled system are not known: {}", error.text()));
+    out.notes.push_back(fmt::format(
+        "damping ratios of the assembled system cannot be determined: {}", error.text()));
   }
   compare(built, out);
   return out;

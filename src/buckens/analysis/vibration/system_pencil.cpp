@@ -188,8 +188,8 @@ void SystemPencil::factorise_small() {
   small_ = std::make_unique<linalg::SparseLu>(A);
   if (!small_->factorise(A)) {
     throw NumericalError(
-        "the system's equations of small motions are singular; joints may be dependent here, or a "
-        "motion is exactly unstable: try another position (--about)");
+        "the linearised equations of motion are singular: joints may be redundant in this "
+        "position, or a motion is exactly at its stability limit; try another position (--about)");
   }
 }
 

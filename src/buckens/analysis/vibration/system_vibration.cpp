@@ -111,10 +111,10 @@ RestTangent SystemVibrations::tangent() {
   if (!is_static) {
     const std::string names = rest.unloaded(values, RestStands(rest.size()), 0.0);
     if (!names.empty()) {
-      out_.notes.push_back(fmt::format(
-          "loads {} touch, but nothing presses as assembled: they count as open (--about static "
-          "finds what presses)",
-          names));
+      out_.notes.push_back(
+          fmt::format("loads {} touch, but no contact force acts as assembled, so they are treated "
+                      "as open (--about static finds the contacts that carry load)",
+                      names));
     }
     return rest_tangent(model_, out_.position, metric_.split(constraints.rows).independent,
                         RestLoads::springs);
@@ -291,10 +291,10 @@ VibrationReport SystemVibrations::run() {
   find_position();
   const RestTangent tangent = this->tangent();
   if (tangent.asymmetry > kUnsymmetric) {
-    out_.notes.push_back(fmt::format(
-        "loads that follow the motion make the stiffness unsymmetric ({:.1e}); the frequencies "
-        "belong to its symmetric part",
-        tangent.asymmetry));
+    out_.notes.push_back(
+        fmt::format("loads that follow the motion make the stiffness unsymmetric ({:.1e}); the "
+                    "frequencies are those of its symmetric part",
+                    tangent.asymmetry));
   }
   SystemPencil pencil(model_, out_.position, tangent);
   out_.dof = pencil.size();
