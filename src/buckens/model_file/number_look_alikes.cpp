@@ -87,7 +87,7 @@ std::optional<std::string> look_alike_problem(const std::string& text,
 
 std::optional<std::string> size_problem(const std::string& formula) {
   if (literal_error(formula) != std::errc::result_out_of_range) return std::nullopt;
-  return fmt::format("{} is beyond the range of numbers, 1e-308 to 1e308", formula);
+  return fmt::format("{} is outside the range of numbers, 1e-308 to 1e308", formula);
 }
 
 std::optional<std::string> foreign_character_problem(const std::string& formula, bool has_unit) {
@@ -130,7 +130,7 @@ std::optional<std::string> cut_item_problem(const YamlNode& list, int count) {
     }
   }
   if (pairs == 0 || static_cast<int>(items.size()) - pairs != count) return std::nullopt;
-  return fmt::format("{},{} is taken for two items; write decimals with a point: {}.{}",
+  return fmt::format("{},{} is read as two items; write decimals with a point: {}.{}",
                      items[first].text, items[first + 1].text, items[first].text,
                      items[first + 1].text);
 }

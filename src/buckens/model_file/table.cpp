@@ -85,8 +85,9 @@ model::Found problem(const TableLawSpec& spec) {
         "point [time in s, value]"};
   }
   if (spec.file.empty() && spec.column) {
-    return model::Finding{"column",
-                          "it belongs to files; a table has one column of values. Remove it"};
+    return model::Finding{
+        "column",
+        "this key applies to files only, since a table has one column of values; remove it"};
   }
   return std::nullopt;
 }
@@ -108,10 +109,10 @@ CsvColumns read_csv_columns(const std::filesystem::path& path, int column) {
     if (is_heading) continue;
     if (static_cast<int>(cells.size()) < column) {
       throw InputError(
-          where, fmt::format(
-                     "the row has {} column{}, but the values are looked for in column {}; "
-                     "separate columns with commas, semicolons or spaces, or give another `column`",
-                     cells.size(), cells.size() == 1 ? "" : "s", column));
+          where,
+          fmt::format("the row has {} column{}, but the values are expected in column {}; separate "
+                      "columns with commas, semicolons or spaces, or give another `column`",
+                      cells.size(), cells.size() == 1 ? "" : "s", column));
     }
     out.times.push_back(cell_value(cells, 1, where));
     out.values.push_back(cell_value(cells, column, where));

@@ -298,10 +298,9 @@ base::SignalLaw read_signal_law(const ReadPlace& place, const FieldNote& note,
     return out;
   }
   if (out.names.size() > base::SignalLaw::kMostSignals) {
-    fail(place,
-         fmt::format("the formula names {} signals, {} at most are possible; make signals of "
-                     "its parts",
-                     out.names.size(), base::SignalLaw::kMostSignals));
+    fail(place, fmt::format("the formula uses {} signals, but at most {} are allowed; turn parts "
+                            "of it into signals",
+                            out.names.size(), base::SignalLaw::kMostSignals));
   }
   std::vector<std::string> variables = {"t"};
   variables.insert(variables.end(), out.names.begin(), out.names.end());

@@ -39,14 +39,14 @@ constexpr std::string_view kControl =
 constexpr std::string_view kUniversal =
     "a joint with a cross between two shafts is called `universal` here";
 constexpr std::string_view kMaterial =
-    "nonlinear materials are not supported yet, they are linear elastic: E, nu, rho, or "
+    "nonlinear materials are not supported yet; materials are linear elastic: E, nu, rho, or "
     "`orthotropic`";
 constexpr std::string_view kHeat =
     "temperatures and thermal loads are not supported yet; instead use `initial: {preload: true}` "
     "with parts whose lengths include the expansion";
 constexpr std::string_view kPlace =
-    "the position and orientation of a body at the start are those of its key `at`: "
-    "bodies: {NAME: {at: {position: [...], orientation: {...}}}}";
+    "the initial position and orientation of a body are given by its key `at`: bodies: {NAME: {at: "
+    "{position: [...], orientation: {...}}}}";
 
 constexpr std::array<Wish, 58> kWishes = {{
     {"friction", "", kFriction},

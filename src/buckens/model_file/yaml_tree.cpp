@@ -200,7 +200,7 @@ std::string hint(const std::string& text, const YAML::Mark& mark) {
   }
   const std::size_t first = line.find_first_not_of(' ');
   const bool has_tab = first != std::string::npos && line[first] == '\t';
-  return has_tab ? "; the line begins with a tab, indent with spaces" : "";
+  return has_tab ? "; the line begins with a tab; indent with spaces" : "";
 }
 
 }  // namespace

@@ -48,9 +48,9 @@ TEST(ModelFileNumbers, ADifferenceThatBeginsWithZeroIsNoOctalNumber) {
 
 TEST(ModelFileNumbers, WhatIsBeyondTheirRangeIsSaidSo) {
   EXPECT_THAT(model_refusal(mass_model("1e400")),
-              HasSubstr("a.rigid.mass: 1e400 is beyond the range"));
-  EXPECT_THAT(model_refusal(mass_model("-1e400")), HasSubstr("-1e400 is beyond the range"));
-  EXPECT_THAT(model_refusal(mass_model("1e-400")), HasSubstr("1e-400 is beyond the range"));
+              HasSubstr("a.rigid.mass: 1e400 is outside the range"));
+  EXPECT_THAT(model_refusal(mass_model("-1e400")), HasSubstr("-1e400 is outside the range"));
+  EXPECT_THAT(model_refusal(mass_model("1e-400")), HasSubstr("1e-400 is outside the range"));
   // No measure has such a size, and its square or fourth power would be infinite.
   EXPECT_THAT(model_refusal(mass_model("1e300 kg")),
               HasSubstr("1e300 kg is not allowed: the value must "
@@ -95,7 +95,7 @@ TEST(ModelFileNumbers, LawsOfTimeAreFiniteInSiUnits) {
   EXPECT_THAT(force("1e100 N"), HasSubstr("must not exceed 1e+60"));
   EXPECT_THAT(force("{table: []}"), HasSubstr("at least one point"));
   EXPECT_THAT(force("{table: [[0, 1], [1, 2]], column: 3}"),
-              HasSubstr("column: it belongs to files"));
+              HasSubstr("column: this key applies to files"));
   EXPECT_THAT(force("{table: [[0, 1], [1, 2]], unit: kg}"),
               HasSubstr("not a unit of a force, such as N"));
 }
