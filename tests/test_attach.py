@@ -205,7 +205,7 @@ def test_what_starts_released_must_exist(buckens, tmp_path):
     (tmp_path / "model.yaml").write_text(text.replace("released: [hand]", "released: [hnd]"))
     buckens("check", "model.yaml").must(2, "unknown joint \"hnd\"", "hand")
     (tmp_path / "model.yaml").write_text(text.replace("released: [hand]", "released: [hand], start: static"))
-    buckens("check", "model.yaml").must(2, "the equilibrium counts all joints", "\"hand\"")
+    buckens("check", "model.yaml").must(2, "the equilibrium is computed with all joints", "\"hand\"")
 
 
 # Two wheels that spin freely, until something lets them turn together.

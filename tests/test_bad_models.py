@@ -229,7 +229,7 @@ def test_bases_without_vibrations_or_with_all_of_them(buckens, tmp_path):
         assert report["modes"] == 0 and report["static_shapes"] > 0
     (tmp_path / "model.yaml").write_text(MODEL.replace("material: steel}", REDUCED + "{craig-bampton: 100000}"))
     notes = buckens("check", "model.yaml", "--json").must(0).json["notes"]
-    assert any("100000 modes are asked for" in note and "no more than" in note for note in notes)
+    assert any("100000 modes were requested" in note and "no more than" in note for note in notes)
 
 
 @pytest.mark.parametrize("load", ["pressure: {on: bar/z1, value: 1 MPa}",

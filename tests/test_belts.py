@@ -124,7 +124,7 @@ def test_energy_closes_where_a_belt_slips_while_its_centres_move(sensors, dampin
 
 def test_wrong_belts_are_named(buckens, tmp_path):
     for text, words in {
-        "friction: 0.3": ("without pretension a belt with `friction` carries nothing", "toothed belt"),
+        "friction: 0.3": ("a belt with `friction` transmits no force without pretension", "toothed belt"),
         "crossed: on, pretension: 1, radii: [200 mm, 300 mm]": ("leaves no room for a crossed belt",),
     }.items():
         model = belt(text)
@@ -188,7 +188,7 @@ def test_a_cross_rubs_about_each_arm(sensors):
 
 @pytest.mark.parametrize("words, before, after", [
     ("joint \"ball\" is a fixed; name a spherical or universal one", SOCKET, "fixed: {between: [ground, rod/origin]}"),
-    ("without radius cause no torque", "radius: 20 mm", "radius: 0"),
+    ("of zero radius cause no friction torque", "radius: 20 mm", "radius: 0"),
     ("sticks by a stiff spring", "radius: 20 mm", "radius: 20 mm, stick: rigid"),
     ("carry no bending moments", "radius: 20 mm", "radius: 20 mm, bearing-length: 3 mm"),
 ])

@@ -316,7 +316,7 @@ simulation: {duration: 1 s, step: 1 ms}
     ("pulleys: [{on: a, radius: 0.1}]", 2, ["a closed cable needs two pulleys"]),
     ("pulleys: [{on: a, radius: 0.2}, {on: b, radius: 0.2, side: right}]", 2, ["its span 1 cannot be formed", "0.3 m apart", "more than 0.4 m"]),
     ("ends: [a, {ground: [0.05, 0, 0]}], pulleys: [{on: ground, radius: 0.1}]", 2, ["its span 2 cannot be formed", "`side` and `radius`"]),
-    ("pulleys: [{on: a, radius: 0.1}, {on: {ground: [1, 0, 0]}, radius: 0.1}], friction: 0.3", 2, ["without pretension a closed cable"]),
+    ("pulleys: [{on: a, radius: 0.1}, {on: {ground: [1, 0, 0]}, radius: 0.1}], friction: 0.3", 2, ["a closed cable with `friction` transmits no force without pretension"]),
     ("ends: [a, ground], pulleys: [{on: b, radius: 0.1}]", 3, ["turns body \"b\", which has no rotary inertia"]),
     ("ends: [a, ground], pulleys: [{on: c, radius: 0.1}]", 2, ["c"]),
     ("ends: [a, ground], pulleys: [{on: b, radius: 0.1, side: up}]", 2, ["left", "right"]),

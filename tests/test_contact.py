@@ -381,17 +381,17 @@ PLANE = "shapes: [{plane: {}}, {sphere: 0.1}]"
     (BALL, "shapes: [{socket: 5 mm}, {sphere: 0.1}]", ["0.1 m does not fit into the socket of 0.005 m"]),
     (BALL, "shapes: [{plane: [0, 0, 0]}, {sphere: 0.1}]", ["a normal cannot be [0, 0, 0]"]),
     (BALL, PLANE + ", damping: 3", ["without `stiffness` or `modulus` the contact is rigid"]),
-    (BALL, PLANE + ", restitution: 1.2", ["expected 0 to 1, found 1.2", "no rebound"]),
+    (BALL, PLANE + ", restitution: 1.2", ["expected 0 to 1, found 1.2", "a rebound cannot be faster"]),
     (BALL, PLANE + ", stiffness: 1e5, restitution: 0", ["0.01", "found 0"]),
     (BALL, PLANE + ", stiffness: 1e5, modulus: [1 GPa, 1 GPa]", ["remove one of them"]),
     (BALL, "shapes: [{plane: {}}, {box: 0.1}], stiffness: 1e5", ["a list of 3 values"]),
-    (BALL, "shapes: [{plane: {}}, {box: [0.1, 0.1, 0.1]}], modulus: [1 GPa, 1 GPa]", ["Hertz has no force for a plane and a box"]),
+    (BALL, "shapes: [{plane: {}}, {box: [0.1, 0.1, 0.1]}], modulus: [1 GPa, 1 GPa]", ["Hertz's theory gives no force between a plane and a box"]),
     (BALL, PLANE + ", stiffness: 1e5, static: 0.2, dynamic: 0.3", ["swap `static` and `dynamic`"]),
     (BALL, PLANE + ", stiffness: 1e5, static: 0.3, dynamic: 0.2", ["stribeck-velocity"]),
-    (BALL, PLANE + ", stiffness: 1e5, tangential-stiffness: 1e4", ["belongs to friction", "`static`"]),
+    (BALL, PLANE + ", stiffness: 1e5, tangential-stiffness: 1e4", ["requires `static` friction", "add `static`"]),
     (BALL, "shapes: [{plane: {}}, {sphere: 0.2}]", ["overlap by 0.1 m as placed", "turn the plane's normal"]),
     ("planar: xy\n" + BALL, PLANE, ["in a planar model the normal of a plane lies in the plane", "give the `normal`"]),
-    ("planar: xy\n" + BALL, "shapes: [{sphere: 0.1}, {sphere: 0.1}]", ["0.1 m apart across the plane"]),
+    ("planar: xy\n" + BALL, "shapes: [{sphere: 0.1}, {sphere: 0.1}]", ["0.1 m apart in the direction normal to the plane"]),
 ])
 def test_wrong_contacts_are_refused(buckens, tmp_path, bodies, spec, words):
     (tmp_path / "model.yaml").write_text(CONTACT.replace("BODIES", bodies).replace("SPEC", spec))

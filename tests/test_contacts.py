@@ -124,16 +124,16 @@ TWO = ("bodies: {b0: {rigid: {mass: 1 kg, inertia: [1, 1, 1]}, at: {position: [0
 
 
 @pytest.mark.parametrize(("spec", "code", "words"), [
-    ("among: [{sphere: 0.1}], stiffness: 1e5", 2, ["needs either `on`, a marker, or `bodies`"]),
-    ("among: [{on: b0, bodies: b1, sphere: 0.1}], stiffness: 1e5", 2, ["give exactly one of them"]),
+    ("among: [{sphere: 0.1}], stiffness: 1e5", 2, ["needs exactly one of `on` (a marker) and `bodies`"]),
+    ("among: [{on: b0, bodies: b1, sphere: 0.1}], stiffness: 1e5", 2, ["needs exactly one of `on`"]),
     ("among: [{bodies: \"bal*\", sphere: 0.1}], stiffness: 1e5", 2, ["there is no body \"bal*\""]),
     ("among: [{bodies: \"b*\", socket: 0.1}], stiffness: 1e5", 2, ["a socket and a socket cannot touch", "`against`"]),
     ("among: [{bodies: \"b*\", cylinder: {radius: 0.1, length: 0.1}}], stiffness: 1e5, exponent: 1.5", 2, ["a cylinder and a cylinder share a volume", "remove `exponent`"]),
     ("among: [{bodies: \"b*\", sphere: 0.4}], stiffness: 1e5", 2, ["b0 and b1 overlap by 0.5 m as placed"]),
     ("among: [{on: ground, plane: [0, 0, -1]}, {bodies: \"b*\", sphere: 0.1}], stiffness: 1e5", 2, ["overlap by 0.2 m", "turn the plane's normal"]),
-    ("among: [{on: ground, plane: {}}, {bodies: \"b*\", box: [0.1, 0.1, 0.1]}], modulus: 1 GPa", 2, ["Hertz has no force for a plane and a box"]),
+    ("among: [{on: ground, plane: {}}, {bodies: \"b*\", box: [0.1, 0.1, 0.1]}], modulus: 1 GPa", 2, ["Hertz's theory gives no force between a plane and a box"]),
     ("among: [{bodies: \"b*\", sphere: 0.1}], stiffness: 1e5, modulus: 1 GPa", 2, ["remove one of them"]),
-    ("among: [{bodies: \"b*\", sphere: 0.1}], stiffness: 1e5, restitution: 1.5", 2, ["no rebound is faster"]),
+    ("among: [{bodies: \"b*\", sphere: 0.1}], stiffness: 1e5, restitution: 1.5", 2, ["a rebound cannot be faster"]),
     ("among: [{bodies: \"b*\", sphere: 0.1}], stiffness: 1e5, dynamic: 0.2", 2, ["swap `static` and `dynamic`"]),
 ])
 def test_wrong_contacts_are_refused(buckens, tmp_path, spec, code, words):

@@ -362,7 +362,7 @@ ERRORS = {
     "points out of order": ("teeth: {coupler: {of: {far: {table: [[-1, 0], [2, 1], [1, 3]]}, near: 1}}}",
                             ["must increase, but 1 follows 2"]),
     "a table elsewhere": ("teeth: {coupler: {of: {far: {table: [[1, 0], [2, 1]]}, near: 1}}}",
-                          ["starts at 0, as placed, outside of the table from 1 to 2"]),
+                          ["starts at 0, as placed, outside the table, which runs from 1 to 2"]),
 }
 
 

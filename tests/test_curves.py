@@ -248,4 +248,4 @@ def test_messages_of_cams(buckens, tmp_path):
         (tmp_path / "model.yaml").write_text(text.replace(*change))
         buckens("check", "model.yaml").must(code, *words)
     (tmp_path / "model.yaml").write_text(text.replace(f"position: [0, {float(height(0, 0.0))!r}, 0]", "position: [0, 0.05, 0]"))
-    buckens("run", "model.yaml", "-o", "out").must(3, "load \"cam\"", "beyond the end of its free way")
+    buckens("run", "model.yaml", "-o", "out").must(3, "load \"cam\"", "beyond the end of its free travel")

@@ -68,7 +68,7 @@ def test_many_moved_bodies_are_told_in_a_few_lines(buckens, tmp_path):
         f"buckens: 1\nbodies:\n{bodies}joints:\n{joints}simulation: {{duration: 1 ms, step: 1 ms}}\noutput: {{every: 1 ms}}\n")
     told = buckens("run", "many.yaml", "-o", "out", "-q").must(0, "assembly moved body \"b1\"").err
     assert told.count("assembly moved body") == 10
-    assert "assembly moved 3 more bodies; the farthest of all by 1.3 m" in told
+    assert "assembly moved 3 more bodies; the largest displacement of all is 1.3 m" in told
     listed = json.loads(buckens("check", "many.yaml", "--json").must(0).out)["assembly_moves"]
     assert len(listed) == count
 

@@ -180,7 +180,7 @@ output: {every: 20 ms, sensors: {v: {velocity: block}, n: {contact: floor}, bala
     ("gravity: -1.62", "", ["set.gravity", "gravity has three components; give for example [0, -1.62 m/s^2, 0]"]),
     ("gravity: [0, -1.62]", "", ["set.gravity", "expected a list of 3 values"]),
     ("gravity.1: -1.62", "", ['events cannot change "gravity.1" by itself; change all of it, gravity: [0, -1.62 m/s^2, 0]']),
-    ("late: [1, 2, 3]", "", ["set.late", "only gravity is given three values"]),
+    ("late: [1, 2, 3]", "", ["set.late", "only gravity takes three values"]),
     ("gravity: {value: 3, vector: [0, 0, 1]}", "", ["set.gravity", "give either `value`"]),
     ("gravity: {}", "", ["set.gravity", "give either `value`"]),
     ("loads.gravity.x: 3", "", ['events cannot change "loads.gravity.x"', "and gravity"]),

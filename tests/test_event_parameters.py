@@ -145,12 +145,12 @@ def test_a_sweep_varies_what_holds_before(buckens, tmp_path):
 @pytest.mark.parametrize("change, words", [
     ("loads.spring.stifness: 3", ['events cannot change "loads.spring.stifness"; here they can change', "loads.spring.stiffness"]),
     ("loads.sprng.stiffness: 3", ['events cannot change "loads.sprng.stiffness"', 'Did you mean "loads.spring.stiffness"?']),
-    ("joints.rail.axis: 3", ['events cannot change "joints.rail.axis"', "springs and dampers, of friction in joints, motors and brakes"]),
+    ("joints.rail.axis: 3", ['events cannot change "joints.rail.axis"', "springs and dampers, joint friction, motors and brakes"]),
     ("loads.spring.characteristic: 3", ['events cannot change "loads.spring.characteristic"; here they can change']),
     ("loads.spring.damping: 3 N/m", ["set.loads.spring.damping", "the value is a stiffness or force per length, not a damping constant"]),
     ("loads.spring.damping: -3", ["set.loads.spring.damping", "-3 is not allowed: the value must not be negative"]),
     ("loads.spring.length: 0.5 m", ['"loads.spring.length" is not given in the model; give it a number there']),
-    ("loads.driven.stiffness: 5", ["set.loads.driven.stiffness", "it follows time or signals; let the event change a `setting`"]),
+    ("loads.driven.stiffness: 5", ["set.loads.driven.stiffness", "it depends on time or signals; let the event change a `setting`"]),
     ("bodies.block.mass: 5", ['events cannot change "bodies.block.mass"']),
 ])
 def test_what_cannot_be_changed_is_refused(buckens, tmp_path, change, words):

@@ -258,7 +258,7 @@ def test_what_starts_switched_off_must_exist_and_move(buckens, tmp_path):
     (tmp_path / "model.yaml").write_text(SPRING.replace("OFF", "off: [rubb]"))
     buckens("check", "model.yaml").must(2, "unknown load \"rubb\"", "rub")
     (tmp_path / "model.yaml").write_text(SPRING.replace("OFF", "off: [rub], start: static"))
-    buckens("check", "model.yaml").must(2, "the equilibrium counts all loads", "\"rub\"")
+    buckens("check", "model.yaml").must(2, "the equilibrium is computed with all loads", "\"rub\"")
 
 
 def test_events_that_set_each_other_off_are_named(buckens, tmp_path):

@@ -155,7 +155,7 @@ def test_check_lists_interfaces(buckens, tmp_path):
     ("{sphere: {center: [-1, 0, 0], radius: 0.5}}", 2,
      ["no node lies in the sphere", "0.5 m away", "`tolerance`"]),
     ("{set: [corner_000, corner_001]}", 3,
-     ["joint \"wall\"", "it has 2 nodes, three are needed for a moment", "span a surface"]),
+     ["joint \"wall\"", "it has 2 nodes, but three are needed to carry a moment", "span a surface"]),
     ("{cylinder: {from: [0, -50 mm, 0], to: [0, 50 mm, 0], radius: 1 mm}}", 3,
      ["joint \"wall\"", "3 nodes lie on one line"]),
     ("{face: x0, kind: firm}", 2, ["interfaces.root.kind", "average", "rigid"]),

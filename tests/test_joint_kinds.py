@@ -263,7 +263,7 @@ simulation: {duration: 1 ms, step: 1 ms}
     ("universal: {between: [ground, disc], axis: [1, 0, 0]}", 2, ["second-axis"]),
     ("constant-velocity: {between: [ground, disc], axis: [1, 0, 0], second-axis: [0, 1, 0]}", 3, ["85 degrees", "by 90"]),
     ("distance: {between: [ground, disc]}", 3, ["no direction", "coincide", "`spherical`"]),
-    ("screw: {between: [ground, disc], axis: [1, 0, 0], pitch: 0}", 2, ["without pitch", "`revolute`"]),
+    ("screw: {between: [ground, disc], axis: [1, 0, 0], pitch: 0}", 2, ["with zero pitch", "`revolute`"]),
     ("cylindrical: {between: [ground, disc], axis: [0, 0, 0]}", 2, ["[0, 0, 0]", "direction"]),
 ])
 def test_joints_that_make_no_sense_are_refused(buckens, tmp_path, joint, code, words):

@@ -404,13 +404,13 @@ output: {sensors: {seen: {SENSOR}}}
 
 @pytest.mark.parametrize("law, words", [
     ("hinge-stop: {joint: hinge, from: 20 deg, to: 10 deg, stiffness: 1}", ["before it begins", "swap"]),
-    ("hinge-stop: {joint: hinge, from: 20 deg, to: 30 deg, stiffness: 1}", ["outside of its stops", "0.34"]),
-    ("slide-stop: {joint: slide, to: -1 mm, stiffness: 1}", ["outside of its stops", "-0.001 m"]),
-    ("slide-stop: {joint: slide, stiffness: 1}", ["from and to", "without an end"]),
+    ("hinge-stop: {joint: hinge, from: 20 deg, to: 30 deg, stiffness: 1}", ["outside its stops", "0.34"]),
+    ("slide-stop: {joint: slide, to: -1 mm, stiffness: 1}", ["outside its stops", "-0.001 m"]),
+    ("slide-stop: {joint: slide, stiffness: 1}", ["from and to", "without them the stop has no limit"]),
     ("slide-stop: {joint: hinge, to: 1, stiffness: 1}", ["\"hinge\" is a revolute", "no displacement", "slide"]),
     ("hinge-spring: {joint: hing, stiffness: 1}", ["unknown joint \"hing\"", "hinge"]),
-    ("hinge-friction: {joint: hinge, static: 0.1}", ["without radius", "`static: 0.1` has no effect", "`radius`", "a `preload`"]),
-    ("hinge-friction: {joint: hinge, static: 0.1, preload: 3 mN m}", ["without radius", "leave out `static`"]),
+    ("hinge-friction: {joint: hinge, static: 0.1}", ["of zero radius", "`static: 0.1` has no effect", "`radius`", "a `preload`"]),
+    ("hinge-friction: {joint: hinge, static: 0.1, preload: 3 mN m}", ["of zero radius", "leave out `static`"]),
     ("hinge-friction: {joint: hinge, static: 0.1, dynamic: 0.2, radius: 1 mm}", ["swap"]),
     ("hinge-friction: {joint: hinge, static: 0.2, dynamic: 0.1, radius: 1 mm}", ["stribeck-velocity"]),
     ("slide-friction: {joint: slide}", ["no effect"]),
@@ -424,7 +424,7 @@ def test_laws_that_make_no_sense_are_refused(buckens, tmp_path, law, words):
     ("joint-coordinate: {joint: slide, which: angle}", ["\"slide\" is a prismatic", "no angle", "hinge"]),
     ("joint-coordinate: slid", ["unknown joint \"slid\"", "slide"]),
     ("spring-force: law", ["no spring-damper or bushing \"law\""]),
-    ("joint-torque: law", ["\"law\" is a load, no joint", "`spring-torque`"]),
+    ("joint-torque: law", ["\"law\" is a load, not a joint", "`spring-torque`"]),
 ])
 def test_coordinates_are_asked_of_joints_that_have_them(buckens, tmp_path, sensor, words):
     law = "hinge-spring: {joint: hinge, stiffness: 1}"

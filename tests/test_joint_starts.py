@@ -66,7 +66,7 @@ output: {sensors: {z: {position: {of: nut, along: [0, 0, 1]}}, v: {velocity: {of
     ("shaf: {angle: 1}", ["unknown joint \"shaf\"", "shaft"]),
     ("shaft: {displacement: 1}", ["\"shaft\" is a revolute", "no displacement", "guide"]),
     ("shaft: {}", ["at least one of the keys"]),
-    ("shaft: {angle: 1}}, start: static, bodies: {", ["equilibrium decides", "\"shaft\""]),
+    ("shaft: {angle: 1}}, start: static, bodies: {", ["equilibrium determines", "\"shaft\""]),
 ])
 def test_starts_that_make_no_sense_are_refused(buckens, tmp_path, start, words):
     (tmp_path / "model.yaml").write_text(CRANK.replace("START", start))
@@ -79,7 +79,7 @@ def test_stops_are_judged_by_the_start(buckens, tmp_path):
     (tmp_path / "model.yaml").write_text(text.replace("START", "shaft: {angle: 40 deg}"))
     buckens("check", "model.yaml").must(0)
     (tmp_path / "model.yaml").write_text(text.replace("START", "shaft: {angle: 70 deg}"))
-    buckens("check", "model.yaml").must(2, "model.yaml:14:", "starts at 1.22173 rad", "outside of its stops")
+    buckens("check", "model.yaml").must(2, "model.yaml:14:", "starts at 1.22173 rad", "outside its stops")
 
 
 DRIVES = """

@@ -120,7 +120,7 @@ def test_the_report_lists_distributed_loads(buckens, tmp_path):
     ("pressure: {on: bar/x1}", ["\"value\" is missing"]),
     ("traction: {on: bar/x1, value: [1 MPa, 0]}", ["3 values"]),
     ("traction: {on: bar/x1, value: [1, 0, 0], axes: body}", ["must be one of fixed, following, not \"body\""]),
-    ("line-load: {on: bar, value: [1, 0, 0]}", ["no beams and bars", "traction"]),
+    ("line-load: {on: bar, value: [1, 0, 0]}", ["no beams or bars", "traction"]),
     ("body-force: {on: bar}", ["exactly one", "per-mass"]),
     ("body-force: {on: bar, per-mass: [1, 0, 0], per-volume: [1, 0, 0]}", ["exactly one"]),
     ("body-force: {on: bar/core, per-mass: [1, 0, 0]}", ["no element set \"core\""]),

@@ -226,7 +226,7 @@ def broken(tmp_path, name, change):
     ("{surface: {}}, {sphere: 0.1}", ["the ground has no mesh", "stl"]),
     ("{plane: {}}, {surface: {}}", ["its body is rigid and has no mesh"]),
     ("{plane: {}}, {stl: {file: good.stl, unit: 1 m}}, exponent: 2", ["a plane and a mesh touch with an area"]),
-    ("{stl: {file: good.stl, unit: 1 m}}, {sphere: 0.1}, modulus", ["Hertz has no force for a mesh and a sphere"]),
+    ("{stl: {file: good.stl, unit: 1 m}}, {sphere: 0.1}, modulus", ["Hertz's theory gives no force between a mesh and a sphere"]),
     ("{bore: 1 m}, {stl: {file: good.stl, unit: 1 m}}, rigid", ["a bore and a mesh cannot touch", "mesh–cylinder"]),
 ])
 def test_bad_surfaces_are_refused(buckens, tmp_path, shapes, words):
@@ -259,7 +259,7 @@ bodies: {ball: {rigid: {mass: 1 kg, inertia: [0, 0, 1]}, at: {position: [0, 1, 0
 loads: {c: {contact: {between: [ground, ball], shapes: [{stl: {file: good.stl, unit: 1 m}}, {sphere: 0.1}], stiffness: 1e5}}}
 simulation: {duration: 1 s, step: 1 ms}
 """)
-    buckens("check", "model.yaml").must(2, "model.yaml:", "in a planar model meshes have no section")
+    buckens("check", "model.yaml").must(2, "model.yaml:", "in a planar model meshes are not supported; use a `sphere`")
 
 
 def test_the_marbles_of_the_examples(sensors, tmp_path):

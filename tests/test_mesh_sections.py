@@ -177,7 +177,7 @@ WRONG = [
      ["offset", "belongs to shells"]),
     ("material: steel, sections: {skin: {thickness: 2 mm, up: [0, 0, 1]}}", ["up", "belongs to beams"]),
     ("material: steel, sections: {skin: {thickness: 2 mm, direction: [1, 0, 0], along-first-side: on}}",
-     ["along-first-side", "says already"]),
+     ["along-first-side", "already determines"]),
     ("sections: {skin: {thickness: 2 mm}}", ['the quadrangle elements of "skin" have no material']),
     ("material: steel, section: {thickness: 2 mm}, masses: [{at: n77, mass: 1}]", ['no node "n77"', "such as"]),
 ]
@@ -196,7 +196,7 @@ def test_generated_meshes_take_no_sections(buckens, tmp_path):
     (tmp_path / "model.yaml").write_text(
         "buckens: 1\n" + MATERIALS + "bodies: {part: {mesh: {plate: {size: [1, 1], divisions: [2, 2], thickness: "
         "0.01}, material: steel, section: {thickness: 2 mm}}}}\n")
-    buckens("check", "model.yaml").must(2, "section", "only meshes of files")
+    buckens("check", "model.yaml").must(2, "section", "only meshes from files")
     (tmp_path / "model.yaml").write_text(
         "buckens: 1\n" + MATERIALS + "bodies: {part: {mesh: {file: plate.msh, material: steel, section: {thickness: "
         "2 mm}}, geometric-stiffness: on}}\n")

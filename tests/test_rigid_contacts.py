@@ -179,7 +179,7 @@ def test_a_run_that_goes_on_is_the_same(buckens, tmp_path):
 
 
 @pytest.mark.parametrize(("spec", "code", "words"), [
-    ("among: [{bodies: \"b*\", sphere: 0.1}], damping: 3", 2, ["the contact is rigid, and this has no effect"]),
+    ("among: [{bodies: \"b*\", sphere: 0.1}], damping: 3", 2, ["the contact is rigid, and this key has no effect"]),
     ("among: [{bodies: \"b*\", sphere: 0.1}], tangential-stiffness: 3e4, static: 0.3", 2, ["the contact is rigid"]),
     ("among: [{bodies: \"b*\", sphere: 0.2}], restitution: 0.3", 2, ["b0 and b1 overlap by 0.1 m as placed; place them apart"]),
     ("among: [{bodies: \"b*\", socket: 0.1}]", 2, ["a socket and a socket cannot touch", "`against`"]),

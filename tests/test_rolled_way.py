@@ -180,7 +180,7 @@ def test_a_run_goes_on_after_turns(goes_on):
 
 
 @pytest.mark.parametrize("loads, words", [
-    ("loads: {s: {hinge-friction: {joint: track, static: 0.1, radius: 0.1}}}", ["joint \"track\" is a rolling, which rubs in a way of its own"]),
+    ("loads: {s: {hinge-friction: {joint: track, static: 0.1, radius: 0.1}}}", ["joint \"track\" is a rolling, which rubs in a different way"]),
     ("loads: {s: {slide-friction: {joint: track, static: 0.1}}}", ["joint \"track\" is a rolling, which does not slide", "`slide-brake`"]),
 ])
 def test_friction_of_a_wheel_is_refused(buckens, tmp_path, loads, words):

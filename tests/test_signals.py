@@ -199,7 +199,7 @@ output: {every: 10 ms, sensors: {z: {position: {of: ball, along: [0, 0, 1]}}, se
     (["a: {joint-displacement: shaft}"], ["no displacement"]),
     (["a: {value: 1, joint-angle: shaft}"], ["exactly one of the keys"]),
     (["a: {position: {of: wheel, along: [0, 0, 0]}}"], ["not a direction"]),
-    (["a: {transfer-function: {input: 1, numerator: [1, 0], denominator: [1]}}"], ["above that of the denominator"]),
+    (["a: {transfer-function: {input: 1, numerator: [1, 0], denominator: [1]}}"], ["exceeds that of the denominator"]),
     (["a: {state-space: {input: 1, A: [[1, 2]], B: [1], C: [1]}}"], ["1 states", "2 entries"]),
     (["a: {pid: {input: 1, derivative: 1}}"], ["\"filter\" is missing"]),
     (["a: {pid: {input: 1, proportional: 1, limits: [1, -1]}}"], ["swap"]),
@@ -276,7 +276,7 @@ def test_an_event_that_chatters_is_named(buckens, tmp_path):
     (tmp_path / "model.yaml").write_text(SWITCH.replace("when: low", "when: lo"))
     buckens("check", "model.yaml").must(2, "model.yaml:13:", "unknown signal \"lo\"", "low")
     (tmp_path / "model.yaml").write_text(SWITCH.replace("off: 5", "off: 1.2"))
-    buckens("check", "model.yaml").must(2, "model.yaml:10:", "levels that differ")
+    buckens("check", "model.yaml").must(2, "model.yaml:10:", "two different levels")
 
 
 def test_a_robot_arm_gets_where_it_should(sensors, tmp_path):
@@ -324,7 +324,7 @@ def test_a_table_and_a_limit_of_rates(sensors):
 @pytest.mark.parametrize("wrong, words", [
     ("points: [[0, 3], [0.5, 1], [1, 1]], EXTRA", ["covers inputs from 0 to 1", "extrapolation: hold"]),
     ("points: [[0, 3], [0, 1]]", ["signals.pull.table.points", "inputs of a table must increase", "0 follows 0"]),
-    ("points: [[0, 3]]", ["signals.pull.table.points", "a table of one point"]),
+    ("points: [[0, 3]]", ["signals.pull.table.points", "a table with a single point"]),
     ("falling: -1", ["falling", "positive"]),
 ])
 def test_tables_and_limits_say_what_is_wrong(buckens, tmp_path, wrong, words):

@@ -86,7 +86,7 @@ output: {every: 1 ms, sensors: {force: {spring-force: mount}, torque: {spring-to
     ("{spring-force: strutt}", ["model.yaml:13:", "strutt", "\"strut\""]),
     ("{spring-force: rail}", ["no spring-damper or bushing \"rail\"", "strut"]),
     ("{spring-torque: strut}", ["no torsional-spring or bushing \"strut\""]),
-    ("{joint-force: strut}", ["\"strut\" is a load, no joint", "`spring-force`"]),
+    ("{joint-force: strut}", ["\"strut\" is a load, not a joint", "`spring-force`"]),
     ("{load-force: strut}", ["\"strut\"", "opposite forces", "`spring-force`"]),
 ])
 def test_springs_are_asked_for_by_their_sensor(buckens, tmp_path, sensor, words):

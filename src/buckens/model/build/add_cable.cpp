@@ -93,8 +93,8 @@ class CableBuilder {
   void require_one_plane(std::size_t k) const {
     const double apart = std::abs(axis_W_.dot(motions_[k].p - motions_[0].p));
     if (apart <= 1e-9 * find_.model().length) return;
-    throw InputError(where_, fmt::format("{}: {} and {} are {:.4g} m apart across the plane of the "
-                                         "model; place them in one plane",
+    throw InputError(where_, fmt::format("{}: {} and {} are {:.4g} m apart in the direction normal "
+                                         "to the plane of the model; place them in one plane",
                                          what_, markers_[0].text, markers_[k].text, apart));
   }
 

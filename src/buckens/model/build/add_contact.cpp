@@ -109,11 +109,11 @@ class ContactBuilder {
       const double apart =
           std::abs(spatial::normal(*find_.model().planar).dot(placed.R_WF * placed.r_F));
       if (apart > kTouchingPlace * size_) {
-        throw InputError(where_,
-                         fmt::format("{}: its shapes are {:.4g} m apart across the plane of "
-                                     "the model and would never meet; place their markers "
-                                     "in one plane",
-                                     what_, apart));
+        throw InputError(
+            where_,
+            fmt::format("{}: its shapes are {:.4g} m apart in the direction normal to the plane of "
+                        "the model and would never meet; place their markers in one plane",
+                        what_, apart));
       }
     }
     const bool is_elastic = spec_.stiffness || spec_.modulus;

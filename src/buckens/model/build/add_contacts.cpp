@@ -149,10 +149,10 @@ class GroupBuilder {
       const double apart =
           std::abs(normal.dot(find_.placed(member.marker).p - find_.placed(first->marker).p));
       if (apart <= kOutOfOnePlane * loads::size_of(member.shape)) continue;
-      throw InputError(where_,
-                       fmt::format("{}: {} and {} are {:.4g} m apart across the plane of the "
-                                   "model and would never meet; place them in one plane",
-                                   what_, first->marker.text, member.marker.text, apart));
+      throw InputError(
+          where_, fmt::format("{}: {} and {} are {:.4g} m apart in the direction normal to the "
+                              "plane of the model and would never meet; place them in one plane",
+                              what_, first->marker.text, member.marker.text, apart));
     }
   }
 

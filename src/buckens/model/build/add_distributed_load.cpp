@@ -111,10 +111,10 @@ void DistributedLoads::require_in_plane(const LoadSpec& spec, const LoadShares& 
   }
   if (std::abs(across) <= kAcross * area) return;
   throw InputError(
-      spec.where, fmt::format("load \"{}\": in a planar model loads act in the plane, and this "
-                              "pressure has a resultant along {}; press on faces across the plane, "
-                              "or leave `planar` out",
-                              spec.name, "xyz"[normal]));
+      spec.where,
+      fmt::format("load \"{}\": in a planar model loads act in the plane, and this pressure has a "
+                  "resultant along {}; apply it to faces normal to the plane, or remove `planar`",
+                  spec.name, "xyz"[normal]));
 }
 
 void DistributedLoads::require_extent(const LoadSpec& spec, const Place& place,

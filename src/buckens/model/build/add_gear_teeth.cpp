@@ -50,11 +50,11 @@ void require_connected(Assemblies& parts, const Model& model, const MarkerId& fi
     return id.body == kGround ? std::string("the ground")
                               : '"' + model.bodies[static_cast<std::size_t>(id.body)].name + '"';
   };
-  throw ModelError(where, fmt::format("{}: its gears have no common carrier, since nothing else "
-                                      "connects {} and {}; gears keep no distance: hold both "
-                                      "shafts, for example by `revolute` joints, on the ground or "
-                                      "on a housing",
-                                      what, name(first), name(second)));
+  throw ModelError(
+      where, fmt::format("{}: its gears have no common carrier, since nothing else connects {} and "
+                         "{}; a gear pair does not hold the distance between its shafts: support "
+                         "both, for example by `revolute` joints, on the ground or on a housing",
+                         what, name(first), name(second)));
 }
 
 }  // namespace

@@ -163,10 +163,9 @@ class JointBuilder {
       if (axis.cross(other).norm() > kAlongArm) continue;
       throw ModelError(
           spec.where,
-          fmt::format(
-              "{}: its axis is the arm of joint \"{}\" that the second marker holds, and an "
-              "axis is fixed in the first; swap the markers of `between`",
-              what, cross.name));
+          fmt::format("{}: its axis is the arm of joint \"{}\" that is fixed to the second marker, "
+                      "but an axis must be fixed to the first; swap the markers of `between`",
+                      what, cross.name));
     }
   }
 

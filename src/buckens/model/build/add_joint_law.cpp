@@ -100,11 +100,10 @@ class JointLawBuilder {
     load.joint = coordinate.joint;
     load.element = make(kind, coordinate);
     if (joint.track && load.element->is_rigid()) {
-      throw ModelError(
-          spec_.where,
-          fmt::format("{}: what acts along a beam cannot be rigid; give a `stiffness` to a stop, "
-                      "and leave out `stick: rigid` of friction",
-                      what));
+      throw ModelError(spec_.where,
+                       fmt::format("{}: loads along a beam cannot be rigid; give a stop a "
+                                   "`stiffness`, and remove `stick: rigid` from friction",
+                                   what));
     }
     model.loads.push_back(std::move(load));
   }

@@ -220,10 +220,9 @@ class LoadBuilder {
     find_.require_across_plane(p.R_WF * joints::unit_axis(p), "a torsional spring", what, where);
     const double free = kind.angle.number().value_or(0.0);
     if (std::abs(free) >= loads::TorsionalSpring::kLargestAngle) {
-      throw InputError(where,
-                       fmt::format("{}: a torsional spring measures up to {} rad from the "
-                                   "position as placed, its free angle {:.4g} rad lies beyond",
-                                   what, loads::TorsionalSpring::kLargestAngle, free));
+      throw InputError(where, fmt::format("{}: a torsional spring measures at most {} rad from the "
+                                          "position as placed, but its free angle is {:.4g} rad",
+                                          what, loads::TorsionalSpring::kLargestAngle, free));
     }
     load.element = std::make_unique<loads::TorsionalSpring>(
         joints::unit_axis(p), p.R_WF.transpose() * p.R_WM, kind.stiffness, kind.damping, kind.angle,

@@ -219,11 +219,10 @@ class Sorter {
     for (auto it = first; it != path_.end(); ++it) {
       names += (it == first ? "\"" : " needs \"") + model_.signals.all[*it].name + '"';
     }
-    throw ModelError(
-        model_.signals.all[path_.back()].where,
-        fmt::format("signals form an algebraic loop: {}; put a `lag`, an `integral` or "
-                    "a `sample-hold` into it",
-                    names));
+    throw ModelError(model_.signals.all[path_.back()].where,
+                     fmt::format("signals form an algebraic loop: {}; break it with a `lag`, an "
+                                 "`integral` or a `sample-hold`",
+                                 names));
   }
 
   const ModelDescription& description_;

@@ -34,7 +34,7 @@ class SliderBuilder {
     if (whole_ < 0) find_.marker(beam, false);
     if (whole_ < 0 || mesh() == nullptr) {
       refuse(
-          fmt::format("\"{}\" has no beams; a slider runs on a flexible body, rigid paths are "
+          fmt::format("\"{}\" has no beams; a slider runs on a flexible body; for a rigid path use "
                       "`slot`, `prismatic` or `point-on-line`",
                       beam.text));
     }
@@ -119,8 +119,8 @@ class SliderBuilder {
       const bool has_beams = std::any_of(neighbours.begin(), neighbours.end(),
                                          [](const auto& list) { return !list.empty(); });
       refuse(has_beams
-                 ? fmt::format("the beams of body \"{}\" are not a single line; say by `from` "
-                               "and `to` between which nodes the slider runs",
+                 ? fmt::format("the beams of body \"{}\" do not form a single line; give the nodes "
+                               "between which the slider runs by `from` and `to`",
                                whole().name)
                  : fmt::format("body \"{}\" has no beams; a slider needs nodes with rotations "
                                "along its way",
@@ -128,7 +128,7 @@ class SliderBuilder {
     }
     const int first = kind_.from ? node_of(*kind_.from, "from") : free[0];
     const int last = kind_.to ? node_of(*kind_.to, "to") : free[free[0] == first ? 1 : 0];
-    if (first == last) refuse("`from` and `to` are the same node; name two");
+    if (first == last) refuse("`from` and `to` are the same node; name two different nodes");
     return {first, last};
   }
 
@@ -192,8 +192,8 @@ class SliderBuilder {
     const double length = track.shape.length();
     if (track.placed < -kBeyond * length || track.placed > (1.0 + kBeyond) * length) {
       refuse(
-          fmt::format("the slider is placed {:.6g} m beyond the {} of its beam of {:.6g} m; "
-                      "place it beside the beam",
+          fmt::format("the slider is placed {:.6g} m beyond the {} of its beam, whose length is "
+                      "{:.6g} m; place it within the length of the beam",
                       track.placed < 0.0 ? -track.placed : track.placed - length,
                       track.placed < 0.0 ? "start" : "end", length));
     }

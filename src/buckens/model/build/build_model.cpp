@@ -246,10 +246,10 @@ class Builder {
       const Vector3d normal_W = spatial::normal(*model_.planar);
       normal_B = R.transpose() * normal_W;
       if (normal_B->cross(normal_W).norm() > kInPlane) {
-        throw InputError(spec.where, fmt::format("body \"{}\" is turned out of the plane of the "
-                                                 "planar model; only rotations about its normal "
-                                                 "are possible",
-                                                 spec.name));
+        throw InputError(spec.where,
+                         fmt::format("body \"{}\" is rotated out of the plane of the planar model; "
+                                     "only rotations about its normal are possible",
+                                     spec.name));
       }
     }
     if (const auto* rigid = std::get_if<body::RigidSpec>(&spec.kind)) {
@@ -273,7 +273,7 @@ class Builder {
     }
     if (!(body.mass > 0.0)) {
       throw ModelError(spec.where,
-                       fmt::format("body \"{}\" has no mass; every body needs inertia, if only a "
+                       fmt::format("body \"{}\" has no mass; every body needs inertia, however "
                                    "little (merge a massless part with its neighbour)",
                                    body.name));
     }

@@ -47,7 +47,7 @@ class ShapeBuilder {
     ContactShape out = round(ContactShape::Kind::bore, spec.radius);
     out.axis = spec.axis.value_or(is_planar_ ? normal_ : Vector3d(Vector3d::UnitZ())).normalized();
     if (is_planar_ && out.axis.cross(normal_).norm() > kOutOfShapePlane) {
-      refuse("the axis of a bore is normal to the plane; leave `axis` out");
+      refuse("the axis of a bore must be normal to the plane; remove `axis`");
     }
     return out;
   }
@@ -59,9 +59,7 @@ class ShapeBuilder {
   }
   ContactShape operator()(const loads::CylinderShape& spec) const {
     if (is_planar_) {
-      refuse(
-          "a cylinder has no section of its own; use a `sphere`, which is a circle there, or a "
-          "`box`");
+      refuse("a cylinder is not supported; use a `sphere`, which is a circle there, or a `box`");
     }
     ContactShape out = round(ContactShape::Kind::cylinder, spec.radius);
     out.half_length = 0.5 * spec.length;
@@ -75,7 +73,7 @@ class ShapeBuilder {
     if (!is_planar_) return out;
     const double along = normal_.cwiseAbs().maxCoeff(&out.flat);
     if (along < 1.0 - kOutOfShapePlane) {
-      refuse("one of the axes of a box is normal to the plane; turn its marker");
+      refuse("one of the axes of a box must be normal to the plane; rotate its marker");
     }
     return out;
   }
@@ -96,7 +94,7 @@ class ShapeBuilder {
   template <class Spec>
   ContactShape mesh(const spatial::TriangleList& triangles, const Spec& spec,
                     const std::string& of) const {
-    if (is_planar_) refuse("meshes have no section; use a `sphere`, a `capsule` or a `box`");
+    if (is_planar_) refuse("meshes are not supported; use a `sphere`, a `capsule` or a `box`");
     ContactShape out;
     out.kind = ContactShape::Kind::mesh;
     try {
@@ -106,10 +104,10 @@ class ShapeBuilder {
       throw InputError(where_, fmt::format("{}: {}: {}", what_, of, error.text()));
     }
     if (spec.spacing && out.mesh->area() > kMostSprings * *spec.spacing * *spec.spacing) {
-      throw InputError(
-          where_, fmt::format("{}: {}: springs at a `spacing` of {:g} m over {:.4g} m² would be "
-                              "more than {:g}; give a greater one",
-                              what_, of, *spec.spacing, out.mesh->area(), kMostSprings));
+      throw InputError(where_,
+                       fmt::format("{}: {}: a `spacing` of {:g} m over {:.4g} m² would need more "
+                                   "than {:g} springs; give a larger spacing",
+                                   what_, of, *spec.spacing, out.mesh->area(), kMostSprings));
     }
     out.half = out.mesh->box().min().cwiseAbs().cwiseMax(out.mesh->box().max().cwiseAbs());
     return out;

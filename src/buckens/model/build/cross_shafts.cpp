@@ -27,12 +27,12 @@ void require_bent_shafts(MarkerFinder& find) {
     if (!pair.has_common_carrier || cosine >= kLargestBend) continue;
     throw ModelError(
         pair.cross->where,
-        fmt::format("joint \"{}\": the shafts that it connects, in joints \"{}\" and \"{}\", meet "
-                    "at {:.4g} degrees; a universal joint is singular at 90 degrees and passes on "
-                    "no rotation there; bend the shafts by less than 85 degrees, or use a `gear` "
-                    "or a `coupler`",
-                    pair.cross->name, pair.first.joint->name, pair.second.joint->name,
-                    std::acos(cosine) * 180.0 / std::numbers::pi));
+        fmt::format(
+            "joint \"{}\": the shafts that it connects, in joints \"{}\" and \"{}\", meet at "
+            "{:.4g} degrees; a universal joint is singular at 90 degrees and transmits no rotation "
+            "there; keep the angle below 85 degrees, or use a `gear` or a `coupler`",
+            pair.cross->name, pair.first.joint->name, pair.second.joint->name,
+            std::acos(cosine) * 180.0 / std::numbers::pi));
   }
 }
 

@@ -34,10 +34,10 @@ void eliminate_links(const NamedStructure& mesh, body::Body& body,
                                ? "links inside its mesh"
                                : fmt::format("rigid interface \"{}\"", regions.front().name);
   if (body.flexible->geometric) {
-    throw ModelError(fmt::format(
-        "geometric stiffness and {} exclude each other; make an interface `average`, or give the "
-        "body more `frames`",
-        what));
+    throw ModelError(
+        fmt::format("geometric stiffness and {} cannot be combined; make an interface `average`, "
+                    "or give the body more `frames`",
+                    what));
   }
   body::LinkedPart linked = body::with_links(body.name, *body.flexible, regions, links);
   body.flexible = std::move(linked.part);

@@ -217,10 +217,10 @@ void hold_damping(Model& model) {
     if (whole.is_divided()) {
       throw ModelError(
           whole.where,
-          fmt::format("body \"{}\": a damping `ratio` at two frequencies cannot be had with "
+          fmt::format("body \"{}\": a damping `ratio` at two frequencies cannot be used with "
                       "several frames, since mass damping would act within each of its {} parts "
-                      "alone; use one frequency (`at: [f]`: stiffness share alone), or `of: free` "
-                      "if this is meant for each part",
+                      "alone; use one frequency (`at: [f]`, stiffness-proportional damping only), "
+                      "or `of: free` if this is meant for each part",
                       whole.name, whole.count));
     }
     hold(model, rows, first, model.bodies[first]);

@@ -72,8 +72,8 @@ class LinkImport {
   }
   void add(const fem::ImportedSpring& spring) {
     if (spring.nodes[0] < 0 || spring.nodes[1] < 0) {
-      throw InputError(where_, fmt::format("{}: a spring has one end only and would hold the body "
-                                           "to ground; take it out and attach it by a load",
+      throw InputError(where_, fmt::format("{}: a spring has only one end and would tie the body "
+                                           "to ground; remove it and attach it as a load",
                                            mesh_.file));
     }
     springs_.push_back({node(spring.nodes[0]), node(spring.nodes[1]), spring.stiffness});

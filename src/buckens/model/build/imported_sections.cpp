@@ -90,7 +90,7 @@ void ImportedSections::check(const fem::GroupSectionSpec& section) const {
       });
   if (fits_set || fits_property) return;
   throw InputError(section.where,
-                   fmt::format("{}: there are no {} in \"{}\", to which this section could belong",
+                   fmt::format("{}: there are no {} in \"{}\" to which this section could apply",
                                mesh_.file, section.is_shell() ? "shells" : "lines", section.name));
 }
 

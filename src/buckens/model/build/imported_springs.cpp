@@ -102,12 +102,13 @@ std::vector<std::string> add_node_springs(const std::vector<NodeSpring>& springs
   }
   if (num_turning > 0) {
     notes.push_back(fmt::format(
-        "{}: {} springs would turn nodes of solids or bars, which have no rotations; these follow "
-        "without moment{}",
+        "{}: {} springs act on the rotations of nodes of solids or bars, which have none; these "
+        "nodes follow without moment{}",
         file, num_turning,
-        num_across == 0 ? std::string()
-                        : fmt::format(", and {} of the springs are softer across their line for it",
-                                      num_across)));
+        num_across == 0
+            ? std::string()
+            : fmt::format(", which makes {} of the springs softer transverse to their line",
+                          num_across)));
   }
   return notes;
 }

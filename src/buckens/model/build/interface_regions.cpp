@@ -127,7 +127,8 @@ InterfaceRegion find_interface(const body::BodySpec& body, const body::Interface
         spec.where, fmt::format("interface \"{}\" of body \"{}\": {}", spec.name, body.name, what));
   };
   if (out.is_rigid) {
-    refuse(why_no_moment(out) + ", so there is nothing to hold rigid; or leave it `average`");
+    refuse(why_no_moment(out) +
+           ", or make the interface `average`, since there is nothing to hold rigid");
   }
   if ((out.at - out.region.centre).norm() > kTolerance * size_of(mesh.structure)) {
     refuse(why_no_moment(out) + ", and a force at `at`, off their centre, needs one");
@@ -140,9 +141,10 @@ InterfaceRegion find_interface(const body::BodySpec& body, const body::Interface
 std::string why_no_moment(const InterfaceRegion& interface) {
   const std::size_t count = interface.region.nodes.size();
   const std::string reason =
-      count < 3 ? fmt::format("it has {} node{}, three are needed for a moment", count,
-                              count == 1 ? "" : "s")
-                : fmt::format("its {} nodes lie on one line and hold no moment about it", count);
+      count < 3
+          ? fmt::format("it has {} node{}, but three are needed to carry a moment", count,
+                        count == 1 ? "" : "s")
+          : fmt::format("its {} nodes lie on one line and cannot carry a moment about it", count);
   return reason + "; use nodes that span a surface";
 }
 

@@ -48,9 +48,7 @@ void LoadPlaceFinder::fail_unknown(const char* kind, const std::vector<std::stri
 LoadedFaces LoadPlaceFinder::faces() const {
   const fem::Structure& structure = mesh_.structure;
   if (structure.solids.num_elements() + structure.shells.num_elements() == 0) {
-    fail(
-        "its mesh has no faces; a load on beams is a `line-load`, one on a point a `force` on a "
-        "marker");
+    fail("its mesh has no faces; use a `line-load` on beams, or a `force` on a marker at a point");
   }
   std::vector<std::string> known;
   for (const fem::FaceSet& set : structure.face_sets) known.push_back(set.name);
@@ -130,8 +128,7 @@ LoadedElements LoadPlaceFinder::lines() const {
   out.shells.clear();
   if (out.lines.empty()) {
     fail(
-        "there are no beams and bars there; a load on solids is a `pressure`, `traction` or "
-        "`body-force`");
+        "there are no beams or bars there; on solids use a `pressure`, `traction` or `body-force`");
   }
   return out;
 }

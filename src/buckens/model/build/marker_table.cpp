@@ -186,13 +186,12 @@ void MarkerTable::refuse_place(const body::MarkerSpec& marker) const {
   const fem::FeModel& fe = body_.flexible->mesh();
   const NearNode near = nearest_node(fe.nodes, *marker.position);
   const Vector3d& at = fe.nodes.at(static_cast<std::size_t>(near.node)).position;
-  throw InputError(
-      marker.where,
-      fmt::format("marker \"{}\" of body \"{}\" at {} does not lie on its mesh; the nearest node "
-                  "lies at {}, {:.3g} m away. Put it on a node or on a beam or bar, or divide the "
-                  "mesh so that a node is there",
-                  marker.name, spec_.name, at_point(*marker.position), at_point(at),
-                  near.distance));
+  throw InputError(marker.where,
+                   fmt::format("marker \"{}\" of body \"{}\" at {} does not lie on its mesh; the "
+                               "nearest node lies at {}, {:.3g} m away. Put it on a node or on a "
+                               "beam or bar, or divide the mesh so that a node lies there",
+                               marker.name, spec_.name, at_point(*marker.position), at_point(at),
+                               near.distance));
 }
 
 MarkerTable::Target MarkerTable::target(const base::MarkerRef& ref) const {

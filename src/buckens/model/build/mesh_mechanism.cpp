@@ -54,10 +54,11 @@ void refuse_mechanisms(const body::Body& body) {
                                     : fmt::format("node \"{}\"", fe.nodes[k].name);
   }
   if (is_matrices) {
-    throw ModelError(fmt::format(
-        "body \"{}\": its stiffness matrix leaves more than the rigid motions free: {} can move "
-        "without strain, or the matrix is not positive; write the matrices of one connected body",
-        body.name, node));
+    throw ModelError(
+        fmt::format("body \"{}\": its stiffness matrix leaves more than the rigid-body motions "
+                    "free: {} can move without strain, or the matrix is not positive semidefinite; "
+                    "export the matrices of one connected body",
+                    body.name, node));
   }
   const char* remedy =
       fem::solids_join_by_faces(body.flexible->mesh())

@@ -89,11 +89,10 @@ void reduce_body(const body::BodySpec& spec, body::Body& body, body::BasisStore*
   std::optional<body::ReducedBasis> basis;
   if (is_kept) basis = find_kept(spec, key, *store);
   if (basis && basis->Z.rows() != body.flexible->fe.dofs.num_dofs) {
-    throw IoError(spec.where,
-                  fmt::format("body \"{}\": {}: the reduced basis in it has {} rows and "
-                              "the body {} nodal variables; remove the file",
-                              spec.name, spec.reduction.file, basis->Z.rows(),
-                              body.flexible->fe.dofs.num_dofs));
+    throw IoError(spec.where, fmt::format("body \"{}\": {}: the reduced basis in it has {} rows, "
+                                          "but the body has {} nodal variables; remove the file",
+                                          spec.name, spec.reduction.file, basis->Z.rows(),
+                                          body.flexible->fe.dofs.num_dofs));
   }
   if (!basis) {
     basis = body::of_body(body.name, [&] { return make_basis(spec, body); });
@@ -102,7 +101,8 @@ void reduce_body(const body::BodySpec& spec, body::Body& body, body::BasisStore*
   if (basis->Z.cols() == 0) {
     throw ModelError(
         spec.where,
-        fmt::format("body \"{}\" has no deformation to reduce it to; make it rigid", body.name));
+        fmt::format("body \"{}\" has no deformation that a reduction could keep; make it rigid",
+                    body.name));
   }
   body.flexible = body::reduce(body.name, *body.flexible, *basis);
   body.flexible->reduction.basis = basis_name(spec);
@@ -113,15 +113,16 @@ void note_other_count(const body::BodySpec& spec, const body::ReductionFigures& 
                       std::vector<std::string>& notes) {
   const int asked = asked_modes(spec.reduction);
   if (found.modes < asked) {
-    notes.push_back(fmt::format(
-        "body \"{}\": {} modes are asked for; its mesh has no more than {}, all are in the basis",
-        spec.name, asked, found.modes));
+    notes.push_back(
+        fmt::format("body \"{}\": {} modes were requested; its mesh has only {}, and all of them "
+                    "are in the basis",
+                    spec.name, asked, found.modes));
   }
   if (asked > 0 && found.modes > asked) {
-    notes.push_back(fmt::format(
-        "body \"{}\": {} modes are asked for; {} are in the basis, because those at {:.6g} Hz have "
-        "one frequency and belong together",
-        spec.name, asked, found.modes, found.highest_mode / kTurn));
+    notes.push_back(
+        fmt::format("body \"{}\": {} modes were requested; {} are in the basis, because those at "
+                    "{:.6g} Hz share one frequency and must be kept together",
+                    spec.name, asked, found.modes, found.highest_mode / kTurn));
   }
 }
 
@@ -145,10 +146,10 @@ void reduce_bodies(const ModelDescription& description, Model& model, body::Basi
     reduce_body(spec, body, store);
     note_other_count(spec, body.flexible->reduction, model.notes);
     if (!is_quasi_static) continue;
-    model.notes.push_back(fmt::format(
-        "body \"{}\" is quasi-static: it does not vibrate, and work that goes into its deformation "
-        "stays out of the energy balance",
-        spec.name));
+    model.notes.push_back(
+        fmt::format("body \"{}\" is quasi-static: it does not vibrate, and work done on its "
+                    "deformation is not part of the energy balance",
+                    spec.name));
   }
 }
 

@@ -82,10 +82,10 @@ fem::SectionLaw make_taper(const fem::SectionSpec& first, const fem::SectionSpec
   static_cast<void>(make_section(first));
   static_cast<void>(make_section(last));
   if (first.shape.index() != last.shape.index()) {
-    throw InputError(last.where,
-                     fmt::format("end-section: a beam cannot change from a {} to a {}; give both "
-                                 "ends the same shape, or constants to both (general)",
-                                 shape_name(first), shape_name(last)));
+    throw InputError(
+        last.where, fmt::format("end-section: a beam cannot change from a {} to a {}; give both "
+                                "ends the same shape, or give section constants for both (general)",
+                                shape_name(first), shape_name(last)));
   }
   if (num_stress_points(first) != num_stress_points(last)) {
     throw InputError(last.where,

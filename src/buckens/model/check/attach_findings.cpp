@@ -23,7 +23,7 @@ std::string instead_of_attaching(const std::string& kind) {
     return "let the event switch on a `hinge-motor` or `slide-motor` with `stiffness`";
   }
   if (kind == "coupler") {
-    return "use a `gear`, `rack`, `belt` or `screw`, which mesh where they are then";
+    return "use a `gear`, `rack`, `belt` or `screw`, which engage in their position at that time";
   }
   return {};
 }
@@ -31,10 +31,11 @@ std::string instead_of_attaching(const std::string& kind) {
 }  // namespace
 
 Finding released_play_problem(const joints::JointSpec& joint, const char* key) {
-  return Finding{key, fmt::format("joint \"{}\" has `backlash`, and events neither release nor "
-                                  "attach such teeth; use a load `elastic-gear`, which is switched "
-                                  "on and off, or leave the backlash out",
-                                  joint.name)};
+  return Finding{
+      key, fmt::format(
+               "joint \"{}\" has `backlash`, and events cannot release or attach such teeth; use "
+               "an `elastic-gear` load, which events can switch on and off, or remove the backlash",
+               joint.name)};
 }
 
 Found attached_problem(const std::vector<std::string>& joints, const char* key,
@@ -53,8 +54,8 @@ Found attached_problem(const std::vector<std::string>& joints, const char* key,
     }
     if (has_play(*joint)) return released_play_problem(*joint, key);
     if (const std::string instead = instead_of_attaching(joint->kind_name()); !instead.empty()) {
-      return Finding{key, fmt::format("joint \"{}\" is a {}, which counts from where it was placed "
-                                      "and cannot be attached during a run; {}",
+      return Finding{key, fmt::format("joint \"{}\" is a {}, which measures from its position as "
+                                      "placed and cannot be attached during a run; {}",
                                       name, joint->kind_name(), instead)};
     }
   }

@@ -40,8 +40,8 @@ Found inertia_problem(const std::vector<double>& entries) {
   const bool is_planar_data = principal[1] == 0.0;
   if (!is_planar_data && principal[0] + principal[1] < principal[2] - tolerance) {
     return Finding{"inertia",
-                   fmt::format("the principal moments {:.4g}, {:.4g}, {:.4g} kg m^2 belong to no "
-                               "body: the largest exceeds the sum of the others",
+                   fmt::format("the principal moments {:.4g}, {:.4g}, {:.4g} kg m^2 are physically "
+                               "impossible: the largest exceeds the sum of the other two",
                                principal[0], principal[1], principal[2])};
   }
   return std::nullopt;
@@ -57,14 +57,14 @@ Found problem(const fem::DampingSpec& spec, const ModelDescription&) {
   if (!spec.ratio) {
     if (spec.of == fem::DampedModes::held) return std::nullopt;
     return Finding{"of",
-                   "it says whose vibrations have a `ratio`; `mass` and `stiffness` are what "
-                   "they are, remove the key"};
+                   "it says which vibrations `ratio` refers to and has no meaning for `mass` and "
+                   "`stiffness`; remove the key"};
   }
   if (spec.mass != 0 || spec.stiffness != 0) {
     return Finding{"ratio", "give either \"ratio\" and \"at\", or \"mass\" and \"stiffness\""};
   }
   if (spec.at.size() > 2) {
-    return Finding{"at", fmt::format("a ratio can be had at one or two frequencies, not at {}",
+    return Finding{"at", fmt::format("a ratio can be given at one or two frequencies, not at {}",
                                      spec.at.size())};
   }
   if (spec.at.size() == 2 && spec.at[0] >= spec.at[1]) {
@@ -78,15 +78,17 @@ Found problem(const fem::TubeSpec& spec, const ModelDescription&) {
     return Finding{"", "exactly one of the keys thickness and inner-diameter is needed"};
   }
   if (spec.inner() > 0 && spec.inner() < spec.outer_diameter) return std::nullopt;
-  return Finding{spec.thickness ? "thickness" : "inner-diameter",
-                 fmt::format("the inner diameter would be {:g} m, the outer one is {:g} m; it must "
-                             "lie between 0 and that (a solid section is a circle)",
-                             spec.inner(), spec.outer_diameter)};
+  return Finding{
+      spec.thickness ? "thickness" : "inner-diameter",
+      fmt::format(
+          "the inner diameter would be {:g} m, but the outer diameter is {:g} m; the inner one "
+          "must be positive and less than the outer one (for a solid section use a circle)",
+          spec.inner(), spec.outer_diameter)};
 }
 
 Found problem(const fem::BoxSpec& spec, const ModelDescription&) {
   if (2 * spec.thickness < std::min(spec.width, spec.height)) return std::nullopt;
-  return Finding{"thickness", "the wall is thicker than half of the box; use a rectangle"};
+  return Finding{"thickness", "the wall is thicker than half the box; use a rectangle"};
 }
 
 Found problem(const fem::PointMassSpec& spec, const ModelDescription&) {
@@ -105,7 +107,7 @@ Found problem(const fem::PlaneSelection& spec, const ModelDescription&) {
 
 Found problem(const body::CouplingSpec& spec, const ModelDescription&) {
   if (spec.level == body::CouplingLevel::automatic && !spec.drop.empty()) {
-    return Finding{"drop", "`auto` chooses the terms itself; drop terms from another level"};
+    return Finding{"drop", "`auto` chooses the terms itself; to drop terms, choose another level"};
   }
   if (spec.tolerance > 1.0) {
     return Finding{"tolerance", "the share must be below 100 %; 1 % is usual"};
@@ -128,7 +130,8 @@ Found problem(const body::OrientationSpec& spec, const ModelDescription&) {
   }
   const int ways = (spec.axis ? 1 : 0) + (spec.euler ? 1 : 0) + (spec.quaternion ? 1 : 0);
   if (ways != 1) {
-    return Finding{"", "give the orientation in one way: axis and angle, euler, or quaternion"};
+    return Finding{
+        "", "give the orientation in exactly one form: axis and angle, euler, or quaternion"};
   }
   if (spec.axis) return axis_problem(*spec.axis);
   // Squares of smaller parts vanish, and with them the rotation.
@@ -192,7 +195,7 @@ Found solver_problem(const body::BodySpec& spec) {
 
 Found problem(const body::BodySpec& spec, const ModelDescription&) {
   if (spec.name == "ground") {
-    return Finding{"", "\"ground\" means the world itself; choose another name"};
+    return Finding{"", "\"ground\" is reserved for the fixed world; choose another name"};
   }
   if (const auto conflict = body::reduction_conflict(spec)) {
     return Finding{conflict->key, conflict->text};
@@ -223,7 +226,7 @@ Found problem(const body::BodySpec& spec, const ModelDescription&) {
     for (std::size_t i = 0; i < structure->bars.size() && !spec.frames.per_element; ++i) {
       if (structure->bars[i].elements == 1) continue;
       return Finding{fmt::format("structure.bars.{}.elements", i),
-                     "bars in a row are a mechanism in one frame; write `frames: per-element`, or "
+                     "a chain of bars in one frame is a mechanism; write `frames: per-element`, or "
                      "use a beam"};
     }
   }
@@ -232,7 +235,7 @@ Found problem(const body::BodySpec& spec, const ModelDescription&) {
 
 Found problem_when_complete(const body::BodySpec& spec, const ModelDescription&) {
   if (spec.is_rigid() && spec.damping) {
-    return Finding{"", "a rigid body has no damping of its own; remove the key \"damping\""};
+    return Finding{"", "a rigid body has no material damping; remove the key \"damping\""};
   }
   if (spec.is_rigid() && !spec.interfaces.empty()) {
     return Finding{"", "a rigid body has no mesh and no interfaces; use `markers`"};

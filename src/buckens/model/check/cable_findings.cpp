@@ -22,17 +22,18 @@ Found own_joint_problem(const loads::CableSpec& spec, const ModelDescription&) {
   }
   const std::size_t nodes = spec.pulleys.size() + (spec.ends ? 2 : 0);
   if (nodes > loads::Cable::kMostNodes) {
-    return Finding{"pulleys", fmt::format("a cable passes at most {} pulleys and ends, found {}; "
-                                          "divide it at a marker",
-                                          loads::Cable::kMostNodes, nodes)};
+    return Finding{
+        "pulleys",
+        fmt::format("a cable can have at most {} pulleys and ends, found {}; split it at a marker",
+                    loads::Cable::kMostNodes, nodes)};
   }
   if (spec.axis && !(spec.axis->norm() > 0.0)) {
     return Finding{"axis", "an axis cannot be [0, 0, 0]; give its direction"};
   }
   if (!spec.ends && spec.coefficient && spec.pretension == 0.0) {
     return Finding{"pretension",
-                   "without pretension a closed cable with `friction` carries nothing, since it "
-                   "has none to begin with; give one, or leave `friction` out for a toothed belt"};
+                   "a closed cable with `friction` transmits no force without pretension; give it "
+                   "a pretension, or remove `friction` for a toothed belt"};
   }
   return std::nullopt;
 }

@@ -85,7 +85,7 @@ Found pair_problem(const loads::ContactSpec& spec) {
 Found rigid_problem(const loads::ContactForceSpec& spec) {
   const auto needs_stiffness = [](const char* key) {
     return Finding{key,
-                   "without `stiffness` or `modulus` the contact is rigid, and this has no "
+                   "without `stiffness` or `modulus` the contact is rigid, and this key has no "
                    "effect; give one of them"};
   };
   if (spec.damping > 0.0) return needs_stiffness("damping");
@@ -96,16 +96,17 @@ Found rigid_problem(const loads::ContactForceSpec& spec) {
 
 Found too_much_restitution_problem(const loads::ContactForceSpec& spec) {
   if (spec.restitution.value_or(0.0) <= 1.0) return std::nullopt;
-  return Finding{"restitution", fmt::format("expected 0 to 1, found {:g}: no rebound is "
-                                            "faster than the approach",
-                                            *spec.restitution)};
+  return Finding{
+      "restitution",
+      fmt::format("expected 0 to 1, found {:g}: a rebound cannot be faster than the approach",
+                  *spec.restitution)};
 }
 
 Found elastic_loss_problem(const loads::ContactForceSpec& spec) {
   if (spec.restitution && *spec.restitution < kLeastElasticRestitution) {
     return Finding{"restitution",
                    fmt::format("expected {:g} to 1 for an elastic contact, found {:g}; leave out "
-                               "`stiffness` and `modulus` for a rigid one, which may have 0",
+                               "`stiffness` and `modulus` for a rigid contact, where 0 is allowed",
                                kLeastElasticRestitution, *spec.restitution)};
   }
   return std::nullopt;
@@ -128,17 +129,18 @@ Found exponent_problem(const loads::ContactForceSpec& spec, const std::string& f
 
 Found elastic_problem(const loads::ContactSpec& spec) {
   if (spec.stiffness && spec.modulus) {
-    return Finding{"modulus", "`stiffness` and `modulus` both give the force; remove one of them"};
+    return Finding{"modulus",
+                   "`stiffness` and `modulus` both define the force; remove one of them"};
   }
   if (spec.poisson && !spec.modulus) {
-    return Finding{"poisson-ratio",
-                   "it belongs to `modulus`, which is missing; add it, or remove "
-                   "`poisson-ratio`"};
+    return Finding{
+        "poisson-ratio",
+        "it requires `modulus`, which is missing; add `modulus`, or remove `poisson-ratio`"};
   }
   if (spec.modulus && spec.exponent) {
     return Finding{"exponent",
-                   "by `modulus` the exponent is 1.5; remove `exponent`, or give a "
-                   "`stiffness` in place of `modulus`"};
+                   "with `modulus` the exponent is 1.5; remove `exponent`, or give a `stiffness` "
+                   "instead of `modulus`"};
   }
   if (Found found =
           exponent_problem(spec, spec.shapes[0].touches_as(), spec.shapes[1].touches_as())) {
@@ -147,30 +149,29 @@ Found elastic_problem(const loads::ContactSpec& spec) {
   const bool is_hertz = is_pair(spec, "sphere", "plane") || is_pair(spec, "sphere", "sphere") ||
                         is_pair(spec, "sphere", "socket");
   if (spec.modulus && !is_hertz) {
-    return Finding{"modulus",
-                   fmt::format("Hertz has no force for a {} and a {}; give a "
-                               "`stiffness`",
-                               spec.shapes[0].touches_as(), spec.shapes[1].touches_as())};
+    return Finding{
+        "modulus",
+        fmt::format("Hertz's theory gives no force between a {} and a {}; give a `stiffness`",
+                    spec.shapes[0].touches_as(), spec.shapes[1].touches_as())};
   }
   return elastic_loss_problem(spec);
 }
 
 Found contact_friction_problem(const loads::ContactForceSpec& spec) {
   if (spec.dynamic && *spec.dynamic > spec.coefficient) {
-    return Finding{"dynamic",
-                   fmt::format("friction is {:g} while it slides, more than {:g} while it sticks; "
-                               "swap `static` and `dynamic`",
-                               *spec.dynamic, spec.coefficient)};
+    return Finding{"dynamic", fmt::format("dynamic friction is {:g}, which exceeds static "
+                                          "friction, {:g}; swap `static` and `dynamic`",
+                                          *spec.dynamic, spec.coefficient)};
   }
   if (spec.coefficient == 0.0 && (spec.stribeck || spec.tangential)) {
     return Finding{
         spec.stribeck ? "stribeck-velocity" : "tangential-stiffness",
-        "it belongs to friction, which has no `static` here; add it, or remove this key"};
+        "it requires `static` friction, which is missing; add `static`, or remove this key"};
   }
   if (spec.dynamic && *spec.dynamic < spec.coefficient && !spec.stribeck) {
     return Finding{"stribeck-velocity",
-                   "the key \"stribeck-velocity\" is missing; where `static` and `dynamic` differ "
-                   "it says how fast the one becomes the other"};
+                   "the key \"stribeck-velocity\" is missing; where `static` and `dynamic` differ, "
+                   "it sets the sliding speed over which one passes into the other"};
   }
   return std::nullopt;
 }
@@ -195,7 +196,8 @@ Found kinds_problem(const loads::ContactsSpec& spec, const loads::ContactMemberS
   if (spec.modulus && !(has("sphere") && (first == second || has("plane") || has("socket")))) {
     return Finding{
         "modulus",
-        fmt::format("Hertz has no force for a {} and a {}; give a `stiffness`", first, second)};
+        fmt::format("Hertz's theory gives no force between a {} and a {}; give a `stiffness`",
+                    first, second)};
   }
   return exponent_problem(spec, first, second);
 }
@@ -235,9 +237,9 @@ Found own_joint_problem(const loads::ContactsSpec& spec, const ModelDescription&
     for (const loads::ContactMemberSpec& member : list) {
       if (Found found = direction_problem(member.shape)) return Finding{key, found->text};
       if (member.bodies.empty() == member.on.body.empty()) {
-        return Finding{key,
-                       "each entry needs either `on`, a marker, or `bodies`, names of bodies; "
-                       "give exactly one of them"};
+        return Finding{
+            key,
+            "each entry needs exactly one of `on` (a marker) and `bodies` (a list of body names)"};
       }
     }
     return std::nullopt;
@@ -246,16 +248,18 @@ Found own_joint_problem(const loads::ContactsSpec& spec, const ModelDescription&
   if (Found found = problem_in(spec.against, "against")) return found;
   if (Found found = kinds_problem(spec)) return found;
   if (spec.stiffness && spec.modulus) {
-    return Finding{"modulus", "`stiffness` and `modulus` both give the force; remove one of them"};
+    return Finding{"modulus",
+                   "`stiffness` and `modulus` both define the force; remove one of them"};
   }
   if (spec.poisson && !spec.modulus) {
-    return Finding{"poisson-ratio",
-                   "it belongs to `modulus`, which is missing; add it, or remove `poisson-ratio`"};
+    return Finding{
+        "poisson-ratio",
+        "it requires `modulus`, which is missing; add `modulus`, or remove `poisson-ratio`"};
   }
   if (spec.modulus && spec.exponent) {
     return Finding{"exponent",
-                   "by `modulus` the exponent is 1.5; remove `exponent`, or give a `stiffness` in "
-                   "place of `modulus`"};
+                   "with `modulus` the exponent is 1.5; remove `exponent`, or give a `stiffness` "
+                   "instead of `modulus`"};
   }
   if (Found found = too_much_restitution_problem(spec)) return found;
   const bool is_rigid = !spec.stiffness && !spec.modulus;

@@ -42,8 +42,8 @@ Found sort_problem(std::optional<base::CoordinateChoice> asked, CoordinateSort s
   const bool takes_angles = sort == CoordinateSort::angles;
   return Finding{
       "which",
-      fmt::format("`{}` is {}, and this acts on {}; use what acts on {}", base::name_of(*asked).key,
-                  takes_angles ? "a displacement" : "an angle",
+      fmt::format("`{}` is {}, but this entry acts on {}; use one that acts on {}",
+                  base::name_of(*asked).key, takes_angles ? "a displacement" : "an angle",
                   takes_angles ? "angles" : "displacements",
                   takes_angles ? "displacements: `slide-spring`, `slide-stop`, `slide-motor`, or a "
                                  "drive by `displacement` or `velocity`"
@@ -73,8 +73,7 @@ Found coordinate_problem(const CoordinateQuery& query, const ModelDescription& m
       !query.asked && std::any_of(joint.coordinates().begin(), joint.coordinates().end(),
                                   [&](auto which) { return base::is_of(which, query.sort); });
   if (has_several) {
-    return Finding{key, fmt::format("{}whose coordinates are {}; say by `which` the one that is "
-                                    "meant",
+    return Finding{key, fmt::format("{}whose coordinates are {}; choose one of them by `which`",
                                     start, names_of_coordinates(joint.coordinates()))};
   }
   if (joint.instead() != nullptr) {

@@ -27,14 +27,15 @@ Found tooth_problem(const Spec& spec, const ModelDescription& model) {
   for (const auto& [key, angle] : {std::pair("pressure-angle", spec.pressure_angle),
                                    std::pair("helix-angle", spec.helix_angle)}) {
     if (std::abs(angle) <= kLargestToothAngle) continue;
-    return Finding{key, fmt::format("expected at most 60 degrees, found {}; common are 20 degrees "
-                                    "of pressure and 0 to 30 degrees of helix",
-                                    degrees(angle))};
+    return Finding{
+        key, fmt::format("expected at most 60 degrees, found {}; typical values are 20 degrees for "
+                         "the pressure angle and 0 to 30 degrees for the helix angle",
+                         degrees(angle))};
   }
   if (spec.helix_angle != 0.0 && model.planar) {
     return Finding{"helix-angle",
-                   fmt::format("a helix of {} makes forces normal to the plane, which a planar "
-                               "model does not have; leave it out, or leave `planar` out",
+                   fmt::format("a helix angle of {} causes forces normal to the plane, which a "
+                               "planar model cannot have; remove it, or remove `planar`",
                                degrees(spec.helix_angle))};
   }
   return std::nullopt;
@@ -43,10 +44,9 @@ Found tooth_problem(const Spec& spec, const ModelDescription& model) {
 template <class Spec>
 Found gear_problem(const Spec& spec, const ModelDescription& model) {
   if (spec.internal && spec.teeth[0] == spec.teeth[1]) {
-    return Finding{"teeth",
-                   fmt::format("a ring has more teeth than the gear inside of it, but both have "
-                               "{:g}; correct one",
-                               spec.teeth[0])};
+    return Finding{"teeth", fmt::format("a ring gear must have more teeth than the gear inside it, "
+                                        "but both have {:g}; correct one of them",
+                                        spec.teeth[0])};
   }
   if (Found found = tooth_problem(spec, model)) return found;
   return needed_axis_problem(spec.axis, model);
@@ -56,13 +56,13 @@ Found gear_problem(const Spec& spec, const ModelDescription& model) {
 Found play_problem(const joints::ToothPlay& spec) {
   if (spec.backlash == 0.0 && (spec.restitution || spec.threshold)) {
     return Finding{spec.restitution ? "restitution" : "threshold",
-                   "without `backlash` flanks never part, and do not strike; give a `backlash`, "
-                   "for example 0.1 mm, or remove this key"};
+                   "without `backlash` the flanks never separate and cannot strike; give a "
+                   "`backlash`, for example 0.1 mm, or remove this key"};
   }
   if (spec.restitution.value_or(0.0) > 1.0) {
     return Finding{
         "restitution",
-        fmt::format("expected 0 to 1, found {:g}: no rebound is faster than the approach",
+        fmt::format("expected 0 to 1, found {:g}: a rebound cannot be faster than the approach",
                     *spec.restitution)};
   }
   return std::nullopt;
@@ -79,7 +79,8 @@ Found function_problem(const joints::CouplerTermSpec& term) {
   }
   if (term.table.empty()) return std::nullopt;
   if (term.table.size() < 2) {
-    return Finding{"table", "a table of one point is no curve; give at least two"};
+    return Finding{"table",
+                   "a table with a single point does not define a curve; give at least two points"};
   }
   for (std::size_t i = 1; i < term.table.size(); ++i) {
     if (term.table[i][0] > term.table[i - 1][0]) continue;
@@ -89,8 +90,8 @@ Found function_problem(const joints::CouplerTermSpec& term) {
                     term.table[i][0], term.table[i - 1][0])};
   }
   if (term.table.front()[0] > 0.0 || term.table.back()[0] < 0.0) {
-    return Finding{"table", fmt::format("the joint starts at 0, as placed, outside of the table "
-                                        "from {:g} to {:g}; add points",
+    return Finding{"table", fmt::format("the joint starts at 0, as placed, outside the table, "
+                                        "which runs from {:g} to {:g}; add points",
                                         term.table.front()[0], term.table.back()[0])};
   }
   return std::nullopt;
@@ -103,8 +104,8 @@ Found term_problem(const joints::CouplerTermSpec& term, const ModelDescription& 
   }
   const auto* joint = base::find_named(model.joints, term.name);
   if (std::holds_alternative<joints::SliderOnBeamSpec>(joint->kind)) {
-    return Finding{"", fmt::format("joint \"{}\" is a slider-on-beam, whose way no coupler can "
-                                   "take; couple what moves the slider",
+    return Finding{"", fmt::format("joint \"{}\" is a slider-on-beam, whose displacement cannot be "
+                                   "coupled; couple the joint that moves the slider",
                                    term.name)};
   }
   return coordinate_problem({term.name, term.which, base::CoordinateSort::any, ""}, model);
@@ -133,8 +134,8 @@ Found own_joint_problem(const joints::GearSpec& spec, const ModelDescription& mo
   for (std::size_t k = 0; spec.backlash > 0.0 && k < spec.teeth.size(); ++k) {
     if (spec.teeth[k] == std::round(spec.teeth[k])) continue;
     return Finding{fmt::format("teeth.{}", k),
-                   fmt::format("gears with `backlash` have whole numbers of teeth, since they may "
-                               "stand in any space between them; found {:g}",
+                   fmt::format("gears with `backlash` need whole numbers of teeth, since a tooth "
+                               "may start in any tooth space; found {:g}",
                                spec.teeth[k])};
   }
   return gear_problem(spec, model);
@@ -156,9 +157,10 @@ Found own_joint_problem(const GearSensor& spec, const ModelDescription& model) {
   const auto* joint = base::find_named(model.joints, spec.gear);
   if (joint != nullptr && std::holds_alternative<joints::GearSpec>(joint->kind)) {
     return Finding{
-        "gear", fmt::format("\"{}\" is a joint, whose teeth neither give way nor have `backlash`; "
-                            "observe its `joint-force`",
-                            spec.gear)};
+        "gear",
+        fmt::format(
+            "\"{}\" is a joint with rigid teeth and without `backlash`; observe its `joint-force`",
+            spec.gear)};
   }
   return Finding{"gear", fmt::format("there is no elastic-gear \"{}\", and no joint with "
                                      "`backlash` of this name.{}",

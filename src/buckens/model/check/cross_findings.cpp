@@ -21,11 +21,10 @@ Found arms_problem(const joints::UniversalSpec& spec) {
   }
   const double cosine = spec.axis.dot(spec.second_axis) / size;
   if (std::abs(cosine) <= 1e-4) return std::nullopt;
-  return Finding{
-      "second-axis",
-      fmt::format("the arms of a universal joint are perpendicular, these meet at {:.4g} "
-                  "degrees; turn one of them",
-                  std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi)};
+  return Finding{"second-axis",
+                 fmt::format("the arms of a universal joint must be perpendicular, but these meet "
+                             "at {:.4g} degrees; rotate one of them",
+                             std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi)};
 }
 
 }  // namespace

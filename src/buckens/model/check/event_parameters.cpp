@@ -113,7 +113,7 @@ std::string unknown_text(const std::string& path, const std::vector<Parameter>& 
     if (one.path.starts_with(owner)) beside.push_back(one.path);
   }
   constexpr const char* kWhat =
-      "events change numbers of springs and dampers, of friction in joints, motors and brakes, of "
+      "events can change the values of springs and dampers, joint friction, motors and brakes, and "
       "contacts, the factors of bushings, and gravity";
   if (!beside.empty()) {
     return fmt::format("events cannot change \"{}\"; here they can change {}", path,
@@ -166,15 +166,17 @@ Found parameter_problem(const SettingChange& change, const ModelDescription& mod
   }
   if (found == nullptr) return Finding{"set", unknown_text(change.name, known)};
   if (!found->is_given()) {
-    return Finding{"set", fmt::format("\"{}\" is not given in the model; give it {} there, "
-                                      "which holds until the event",
-                                      change.name, found->needs)};
+    return Finding{
+        "set",
+        fmt::format(
+            "\"{}\" is not given in the model; give it {} there, which applies until the event",
+            change.name, found->needs)};
   }
   const std::string path = "set." + change.name;
   if (found->law != nullptr && !found->law->is_constant()) {
-    return Finding{path,
-                   "it follows time or signals; let the event change a `setting` that its "
-                   "formula names"};
+    return Finding{
+        path,
+        "it depends on time or signals; let the event change a `setting` that its formula uses"};
   }
   if (Found wrong = unit_problem(path, *change.value, found->note.dimension)) return wrong;
   const std::optional<double> number = change.value->number();

@@ -33,13 +33,12 @@ void require_flat(const std::string& body, const SourceLocation& where,
         box.extend(p);
       }
       if (most - least <= kLeavesPlane * box.diagonal().norm()) continue;
-      throw InputError(
-          where,
-          fmt::format("body \"{}\": {} {} between ({:g}, {:g}, {:g}) and ({:g}, {:g}, {:g}) m "
-                      "leaves the plane of the planar model by {:.4g} m; lay it parallel to the "
-                      "plane, or leave `planar` out",
-                      body, what, e + 1, box.min().x(), box.min().y(), box.min().z(), box.max().x(),
-                      box.max().y(), box.max().z(), most - least));
+      throw InputError(where,
+                       fmt::format("body \"{}\": {} {} between ({:g}, {:g}, {:g}) and ({:g}, {:g}, "
+                                   "{:g}) m leaves the plane of the planar model by {:.4g} m; "
+                                   "place it parallel to the plane, or remove `planar`",
+                                   body, what, e + 1, box.min().x(), box.min().y(), box.min().z(),
+                                   box.max().x(), box.max().y(), box.max().z(), most - least));
     }
   };
   check(structure.beams, "beam element");

@@ -23,7 +23,7 @@ Found give_problem(const Spec& spec) {
   if (spec.restitution.value_or(0.0) > 1.0) {
     return Finding{
         "restitution",
-        fmt::format("expected 0 to 1, found {:g}: no rebound is faster than the approach",
+        fmt::format("expected 0 to 1, found {:g}: a rebound cannot be faster than the approach",
                     *spec.restitution)};
   }
   return std::nullopt;

@@ -42,7 +42,7 @@ Found joint_problem(const std::string& name, const ModelDescription& model) {
                            std::holds_alternative<loads::RopeSpec>(load->kind) ||
                            std::holds_alternative<loads::CamSpec>(load->kind) ||
                            acts_on_coordinate(*load, false);
-    return Finding{"joint", fmt::format("\"{}\" is a load, no joint; observe its `{}`", name,
+    return Finding{"joint", fmt::format("\"{}\" is a load, not a joint; observe its `{}`", name,
                                         turns       ? "spring-torque"
                                         : is_spring ? "spring-force"
                                                     : "load-force")};
@@ -54,8 +54,8 @@ Found joint_problem(const std::string& name, const ModelDescription& model) {
 Found joint_force_problem(const std::string& name, const ModelDescription& model) {
   if (Found found = joint_problem(name, model)) return found;
   if (!has_play(*base::find_named(model.joints, name))) return std::nullopt;
-  return Finding{"joint", fmt::format("\"{}\" has `backlash`: its flanks push or let go; observe "
-                                      "their force by `{{gear: {}}}`",
+  return Finding{"joint", fmt::format("\"{}\" has `backlash`, so its flanks are either in contact "
+                                      "or apart; observe their force by `{{gear: {}}}`",
                                       name, name)};
 }
 
@@ -72,7 +72,8 @@ Found law_problem(const Law& law, const ModelDescription& model) {
 
 Found stop_problem(const loads::JointStop& spec, const char* unit) {
   if (!spec.from && !spec.to) {
-    return Finding{"", "at least one of the keys from and to is needed: a stop without an end"};
+    return Finding{
+        "", "at least one of the keys from and to is needed: without them the stop has no limit"};
   }
   if (spec.from && spec.to && *spec.from >= *spec.to) {
     return Finding{
@@ -98,16 +99,15 @@ Found friction_problem(const loads::JointFrictionBase& spec) {
   const std::optional<double> sticking = spec.coefficient.number();
   const std::optional<double> sliding = spec.dynamic ? spec.dynamic->number() : std::nullopt;
   if (sliding && sticking && *sliding > *sticking) {
-    return Finding{"dynamic", fmt::format("friction is {:g} while it slides, more than {:g} while "
-                                          "it sticks; swap `static` and `dynamic`",
+    return Finding{"dynamic", fmt::format("dynamic friction is {:g}, which exceeds static "
+                                          "friction, {:g}; swap `static` and `dynamic`",
                                           *sliding, *sticking)};
   }
   const bool are_equal = sliding && sticking && *sliding == *sticking;
   if (spec.dynamic && !are_equal && !spec.stribeck) {
-    return Finding{
-        "stribeck-velocity",
-        "the key \"stribeck-velocity\" is missing; where `static` and `dynamic` differ it "
-        "says how fast the one becomes the other"};
+    return Finding{"stribeck-velocity",
+                   "the key \"stribeck-velocity\" is missing; where `static` and `dynamic` differ, "
+                   "it sets the sliding speed over which one passes into the other"};
   }
   if (spec.stick == loads::FrictionStick::rigid && spec.slip) {
     return Finding{"slip",
@@ -146,7 +146,7 @@ Found friction_problem(const loads::HingeFrictionSpec& spec) {
   }
   return Finding{
       "radius",
-      fmt::format("forces on a pin without radius cause no torque, so that `static{}` has no "
+      fmt::format("forces on a pin of zero radius cause no friction torque, so `static{}` has no "
                   "effect; give the `radius` of the pin or the `axial-radius` of its collar, or {}",
                   shown(spec.coefficient),
                   !spec.preload.is_number(0.0) ? "leave out `static` and keep `preload` alone"
@@ -167,8 +167,8 @@ Found exact_motor_problem(const loads::MotorSpec& spec, bool turns) {
   }
   if (spec.force) {
     return Finding{turns ? "torque" : "force",
-                   fmt::format("a motor that holds its {} exactly takes what force that needs; "
-                               "remove it, or give a `damping`",
+                   fmt::format("a motor that holds its {} exactly applies whatever force is "
+                               "needed; remove this key, or give a `damping`",
                                speed)};
   }
   return std::nullopt;
@@ -179,17 +179,18 @@ Found return_problem(const loads::MotorSpec& spec, const char* position, const c
   if (!spec.position) {
     return Finding{
         "return-time",
-        fmt::format("there is no `{0}` to come back to; give this `{0}`, or remove it", position)};
+        fmt::format("there is no target `{0}` to return to; give a `{0}`, or remove this key",
+                    position)};
   }
   if (!spec.stiffness.is_number(0.0) || !spec.damping.is_number(0.0)) {
     return Finding{"return-time",
-                   "it belongs to a motor without gains; remove it, or `stiffness` and `damping`"};
+                   "this key applies to a motor without gains; remove it, or remove `stiffness` "
+                   "and `damping`"};
   }
   if (spec.speed && !spec.position->uses_signals()) {
-    return Finding{speed,
-                   fmt::format("the rate of `{0}` is known from its law, and this one would lead "
-                               "away from it; remove it, or give `{0}` by signals",
-                               position)};
+    return Finding{speed, fmt::format("the rate of `{0}` follows from its law, and this key would "
+                                      "contradict it; remove the key, or give `{0}` by signals",
+                                      position)};
   }
   return std::nullopt;
 }
@@ -200,10 +201,11 @@ Found return_step_problem(const loads::MotorSpec& spec, const ModelDescription& 
   if (!spec.return_time || !model.simulation) return std::nullopt;
   const double step = model.simulation->step.value_or(0.0);
   if (*spec.return_time >= kLeastSteps * step * (1 - 1e-12)) return std::nullopt;
-  return Finding{"return-time",
-                 fmt::format("{:g} s are less than {:g} steps of {:g} s; give {:g} s at least, or "
-                             "a smaller `step`",
-                             *spec.return_time, kLeastSteps, step, kLeastSteps * step)};
+  return Finding{
+      "return-time",
+      fmt::format(
+          "{:g} s is less than {:g} steps of {:g} s; give at least {:g} s, or a smaller `step`",
+          *spec.return_time, kLeastSteps, step, kLeastSteps * step)};
 }
 
 /// A gain aims at something, and a motor does something.
@@ -277,12 +279,12 @@ Found own_joint_problem(const loads::HingeFrictionSpec& spec, const ModelDescrip
       joint.has(base::CoordinateChoice::second_angle)) {
     const bool is_cross = joint.has(base::CoordinateChoice::second_angle);
     const bool is_ball = std::holds_alternative<joints::SphericalSpec>(joint.kind);
-    return Finding{"joint",
-                   fmt::format("joint \"{}\" is a {}, which rubs {}", spec.joint, joint.kind_name(),
-                               is_cross  ? "on both of its arms; use `ball-friction`"
-                               : is_ball ? "about all axes; use `ball-friction`"
-                                         : "in a way of its own; use the `damping` of a "
-                                           "`hinge-spring`")};
+    return Finding{
+        "joint",
+        fmt::format("joint \"{}\" is a {}, which rubs {}", spec.joint, joint.kind_name(),
+                    is_cross  ? "on both of its arms; use `ball-friction`"
+                    : is_ball ? "about all axes; use `ball-friction`"
+                              : "in a different way; use the `damping` of a `hinge-spring`")};
   }
   return friction_problem(spec);
 }
@@ -296,11 +298,12 @@ Found own_joint_problem(const loads::SlideFrictionSpec& spec, const ModelDescrip
                                         spec.joint)};
   }
   if (!joint.has(base::CoordinateChoice::displacement)) {
-    return Finding{"joint",
-                   fmt::format("joint \"{}\" is a {}, whose friction has one direction, that in "
-                               "which it slides, and not one along each coordinate; use a "
-                               "`contact` with friction, or the `damping` of a `slide-spring`",
-                               spec.joint, joint.kind_name())};
+    return Finding{
+        "joint",
+        fmt::format(
+            "joint \"{}\" is a {}, whose friction acts in the direction of sliding and not along "
+            "each coordinate; use a `contact` with friction, or the `damping` of a `slide-spring`",
+            spec.joint, joint.kind_name())};
   }
   return friction_problem(static_cast<const loads::JointFrictionBase&>(spec));
 }
@@ -327,8 +330,8 @@ Found own_joint_problem(const loads::BallFrictionSpec& spec, const ModelDescript
     return found;
   }
   if (spec.coefficient.is_number(0.0) || spec.radius > 0.0) return std::nullopt;
-  return Finding{"radius", fmt::format("forces on a ball without radius cause no torque, so that "
-                                       "`static{}` has no effect; give the `radius`",
+  return Finding{"radius", fmt::format("forces on a ball of zero radius cause no friction torque, "
+                                       "so `static{}` has no effect; give the `radius`",
                                        shown(spec.coefficient))};
 }
 
@@ -355,8 +358,8 @@ Found own_joint_problem(const loads::SlideBrakeSpec& spec, const ModelDescriptio
 Found own_joint_problem(const loads::ElasticBeltSpec& spec, const ModelDescription&) {
   if (spec.coefficient && *spec.coefficient > 0.0 && spec.pretension == 0.0) {
     return Finding{"pretension",
-                   "without pretension a belt with `friction` carries nothing, since it has none "
-                   "to begin with; give one, or leave `friction` out for a toothed belt"};
+                   "a belt with `friction` transmits no force without pretension; give it a "
+                   "pretension, or remove `friction` for a toothed belt"};
   }
   return std::nullopt;
 }
@@ -379,7 +382,7 @@ Found own_joint_problem(const JointCoordinateSensor& spec, const ModelDescriptio
 Found own_joint_problem(const joints::ScrewSpec& spec, const ModelDescription&) {
   if (spec.pitch == 0.0) {
     return Finding{"pitch",
-                   "a screw without pitch does not move along its axis; give one, or use a "
+                   "a screw with zero pitch does not move along its axis; give a pitch, or use a "
                    "`revolute` joint"};
   }
   return axis_problem(spec.axis);

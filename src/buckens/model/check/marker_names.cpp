@@ -75,10 +75,9 @@ Found marker_problem(const base::MarkerRef& marker, const ModelDescription& mode
     const std::size_t mark = marker.body.find_first_of(".:");
     const std::string head = marker.body.substr(0, mark);
     if (mark != std::string::npos && base::find_named(model.bodies, head) != nullptr) {
-      return Finding{
-          "", fmt::format("unknown body \"{}\". Did you mean \"{}/{}\"? A slash stands before "
-                          "the name of a marker",
-                          text_of(marker), head, text_of(marker).substr(mark + 1))};
+      return Finding{"", fmt::format("unknown body \"{}\". Did you mean \"{}/{}\"? A slash "
+                                     "separates the body from its marker",
+                                     text_of(marker), head, text_of(marker).substr(mark + 1))};
     }
     return Finding{"", fmt::format("unknown body \"{}\".{}", marker.body,
                                    base::suggestion(marker.body, known))};

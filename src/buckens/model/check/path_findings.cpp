@@ -40,7 +40,7 @@ Found problem(const base::PathSegmentSpec& spec, const ModelDescription& /*model
                    "it belongs to an `arc`; remove it, or write `arc` in place of `line`"};
   }
   if (spec.through && spec.centre) {
-    return Finding{"centre", "`through` says already which arc it is; remove one of them"};
+    return Finding{"centre", "`through` already determines the arc; remove one of them"};
   }
   return std::nullopt;
 }
@@ -54,8 +54,8 @@ Found own_joint_problem(const loads::CamSpec& spec, const ModelDescription& mode
   if (Found found = path_problem(spec)) return found;
   if (!spec.normal && !model.planar) {
     return Finding{"",
-                   "the key \"normal\" is missing; a model in space needs the direction across "
-                   "the plane of the curve, for example normal: [0, 0, 1]"};
+                   "the key \"normal\" is missing; a model in space needs the normal of the plane "
+                   "of the curve, for example normal: [0, 0, 1]"};
   }
   if (Found found = normal_problem(spec.normal)) return found;
   return give_problem(spec);

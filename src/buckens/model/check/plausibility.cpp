@@ -176,7 +176,7 @@ class Doubts {
   void look_at_angle(double angle) {
     if (std::abs(angle) <= kFullTurn * (1.0 + 1e-9)) return;
     add("",
-        fmt::format("an angle of {:.4g} turns, since angles without unit are in rad",
+        fmt::format("an angle of {:.4g} turns, since angles without a unit are in rad",
                     angle / kFullTurn),
         fmt::format("{:g} deg", angle), true);
   }

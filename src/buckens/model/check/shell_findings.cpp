@@ -51,7 +51,7 @@ Found problem(const fem::GroupSectionSpec& spec, const ModelDescription&) {
     if (spec.rotary_inertia) return foreign("rotary-inertia", "beams");
   }
   if (spec.direction && spec.along_first_side) {
-    return Finding{"along-first-side", "`direction` says already where the x axis lies"};
+    return Finding{"along-first-side", "`direction` already determines the x axis"};
   }
   if (spec.direction && spec.direction->norm() == 0.0) {
     return Finding{"direction", "a direction cannot be zero"};

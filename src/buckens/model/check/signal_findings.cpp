@@ -50,7 +50,9 @@ Found problem(const SignalSpec& spec, const ModelDescription& model) {
 
 Found problem(const TableSignalSpec& spec, const ModelDescription&) {
   if (spec.points.size() < 2) {
-    return Finding{"points", "a table of one point is no function; give at least two"};
+    return Finding{
+        "points",
+        "a table with a single point does not define a function; give at least two points"};
   }
   for (std::size_t k = 1; k < spec.points.size(); ++k) {
     if (spec.points[k][0] > spec.points[k - 1][0]) continue;
@@ -64,10 +66,10 @@ Found problem(const TableSignalSpec& spec, const ModelDescription&) {
 
 Found problem(const SwitchSpec& spec, const ModelDescription&) {
   if (!spec.off || *spec.off != spec.on) return std::nullopt;
-  return Finding{"off",
-                 fmt::format("it switches off at {:g}, where it switches on; give levels that "
-                             "differ",
-                             spec.on)};
+  return Finding{
+      "off",
+      fmt::format("it switches on and off at the same level, {:g}; give two different levels",
+                  spec.on)};
 }
 
 namespace {
@@ -76,12 +78,12 @@ namespace {
 Found value_problem(const SettingChange& change) {
   const std::string path = "set." + change.name;
   if (change.value.has_value() == change.vector.has_value()) {
-    return Finding{path,
-                   "give either `value`, a number or formula, or for gravity `vector`, three of "
-                   "them"};
+    return Finding{
+        path,
+        "give either `value` (a number or formula) or, for gravity, `vector` (three of them)"};
   }
   if (change.name == "gravity" || !change.vector) return std::nullopt;
-  return Finding{path, "only gravity is given three values; give one number or formula"};
+  return Finding{path, "only gravity takes three values; give one number or formula"};
 }
 
 /// The settings that an event changes.
@@ -125,8 +127,8 @@ Found switches_problem(const std::vector<std::string>& switched, const char* key
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     const bool is_joint = base::find_named(model.joints, name) != nullptr;
     return Finding{
-        key, is_joint ? fmt::format("\"{}\" is a joint; joints are not switched, but "
-                                    "come under `lock`, `unlock` or `release`",
+        key, is_joint ? fmt::format("\"{}\" is a joint, and joints cannot be switched; name it "
+                                    "under `lock`, `unlock` or `release`",
                                     name)
                       : fmt::format("unknown load \"{}\".{}", name, base::suggestion(name, known))};
   }
@@ -145,11 +147,11 @@ Found locks_problem(const std::vector<std::string>& joints, const char* key,
     const bool is_bent = joint->has(base::CoordinateChoice::swing);
     if (!joint->coordinates().empty() && !is_bent && !is_driven) continue;
     if (is_bent) {
-      return Finding{key, fmt::format("joint \"{}\" is a {}, which has no angle or displacement to "
-                                      "hold: its coordinates do not say all of how it stands; name "
-                                      "a `fixed` joint under `attach` that holds its bodies "
-                                      "`as-found`",
-                                      name, joint->kind_name())};
+      return Finding{key,
+                     fmt::format("joint \"{}\" is a {}, which has no angle or displacement to "
+                                 "hold: its coordinates do not fully determine its position; name "
+                                 "a `fixed` joint under `attach` that holds its bodies `as-found`",
+                                 name, joint->kind_name())};
     }
     return Finding{key, fmt::format("joint \"{}\" is a {}, which {}; name one that turns about or "
                                     "slides along an axis and is not driven",
@@ -196,17 +198,17 @@ Found problem(const MarkerSignalSpec& spec, const ModelDescription&) {
 
 Found problem(const TransferFunctionSpec& spec, const ModelDescription&) {
   if (spec.denominator.empty() || spec.denominator.front() == 0.0) {
-    return Finding{"denominator",
-                   "its first coefficient, of the highest power of s, must not be 0; leave leading "
-                   "zeros out"};
+    return Finding{
+        "denominator",
+        "its first coefficient, of the highest power of s, must not be 0; remove leading zeros"};
   }
   if (spec.numerator.empty()) return Finding{"numerator", "it needs at least one coefficient"};
   if (spec.numerator.size() > spec.denominator.size()) {
-    return Finding{"numerator",
-                   fmt::format("its order {} is above that of the denominator, {}: it "
-                               "would differentiate its input; use a `pid` with "
-                               "`filter`, or give the denominator more powers",
-                               spec.numerator.size() - 1, spec.denominator.size() - 1)};
+    return Finding{
+        "numerator",
+        fmt::format("its order {} exceeds that of the denominator, {}: it would differentiate its "
+                    "input; use a `pid` with `filter`, or give the denominator more powers",
+                    spec.numerator.size() - 1, spec.denominator.size() - 1)};
   }
   return std::nullopt;
 }
@@ -240,14 +242,15 @@ Found problem(const PidSpec& spec, const ModelDescription&) {
   }
   if (spec.limits && !((*spec.limits)[0] < (*spec.limits)[1])) {
     return Finding{"limits",
-                   fmt::format("the least value {:g} is not below the largest {:g}; swap them",
+                   fmt::format("the lower limit {:g} is not below the upper limit {:g}; swap them",
                                (*spec.limits)[0], (*spec.limits)[1])};
   }
   if (spec.tracking && (spec.sample || !spec.limits)) {
-    return Finding{"tracking-time", spec.sample
-                                        ? "a sampled controller stops its integral at once; "
-                                          "remove it"
-                                        : "it belongs to `limits`; give these, or remove it"};
+    return Finding{
+        "tracking-time",
+        spec.sample
+            ? "a sampled controller stops its integral immediately at its limits; remove this key"
+            : "it requires `limits`; add them, or remove this key"};
   }
   return std::nullopt;
 }

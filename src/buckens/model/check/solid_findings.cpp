@@ -23,8 +23,11 @@ Found form_problem(const fem::SolidElementSpec& spec) {
 Found round_problem(const fem::RoundMeshSpec& spec, double inner_radius) {
   const int around = spec.divisions[1];
   if (around < 4) {
-    return Finding{"divisions.1",
-                   fmt::format("{} elements around are not round; give at least 4", around)};
+    return Finding{
+        "divisions.1",
+        fmt::format(
+            "{} elements around the circumference are too few for a round part; give at least 4",
+            around)};
   }
   if (inner_radius == 0.0 && around % 4 != 0) {
     return Finding{"divisions.1",

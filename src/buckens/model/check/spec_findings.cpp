@@ -77,10 +77,10 @@ Found deflection_problem(const DeflectionSensor& spec, const ModelDescription& m
   const auto names = marker_names(*base::find_named(model.bodies, spec.of.body));
   for (const char* end : {"start", "end"}) {
     if (std::find(names.begin(), names.end(), end) != names.end()) continue;
-    return Finding{"from",
-                   fmt::format("body \"{}\" has no marker \"{}\", between `start` and `end` "
-                               "runs the chord; name its ends with `chord`, or write `from: frame`",
-                               spec.of.body, end)};
+    return Finding{
+        "from", fmt::format("body \"{}\" has no marker \"{}\", and the chord runs from `start` to "
+                            "`end` by default; name its ends with `chord`, or write `from: frame`",
+                            spec.of.body, end)};
   }
   return std::nullopt;
 }
@@ -222,16 +222,18 @@ Found method_problem(const SimulationSpec& spec) {
                     chosen)};
   }
   if (spec.alpha && !(*spec.alpha >= -1.0 / 3.0 && *spec.alpha <= 0.0)) {
-    return Finding{"alpha", fmt::format("alpha must lie between -1/3 and 0, not {}: outside, the "
-                                        "method is unstable or loses its order; -0.1 is usual",
-                                        *spec.alpha)};
+    return Finding{"alpha",
+                   fmt::format("alpha must lie between -1/3 and 0, not {}: outside this range the "
+                               "method is unstable or loses its order; -0.1 is usual",
+                               *spec.alpha)};
   }
   if (spec.theta && !(*spec.theta >= 1.366 && *spec.theta <= 10.0)) {
     return Finding{
         "theta",
-        fmt::format("theta must be at least 1.366 (and at most 10), not {}: below, Wilson's method "
-                    "lets vibrations grow that the step does not resolve; 1.4 is usual",
-                    *spec.theta)};
+        fmt::format(
+            "theta must be at least 1.366 (and at most 10), not {}: below this value Wilson's "
+            "method amplifies vibrations that the step does not resolve; 1.4 is usual",
+            *spec.theta)};
   }
   return std::nullopt;
 }
@@ -246,15 +248,14 @@ Found problem(const SimulationSpec& spec, const ModelDescription&) {
                                *spec.tolerance)};
   }
   if (spec.tolerance && *spec.tolerance < kLeastTolerance) {
-    return Finding{"tolerance", fmt::format("an error of {:g} in a step is below the rounding of "
-                                            "positions; ask for {:g} at least",
+    return Finding{"tolerance", fmt::format("an error of {:g} per step is below the rounding error "
+                                            "of positions; give at least {:g}",
                                             *spec.tolerance, kLeastTolerance)};
   }
   if (spec.kept_solves > kMostKeptSolves) {
-    return Finding{"kept-solves",
-                   fmt::format("{} answers would cost more than the solves they save; keep {} at "
-                               "most, or leave the key out for 80",
-                               spec.kept_solves, kMostKeptSolves)};
+    return Finding{"kept-solves", fmt::format("{} solutions would cost more to keep than they save "
+                                              "in solves; keep at most {}, or omit the key for 80",
+                                              spec.kept_solves, kMostKeptSolves)};
   }
   if (!spec.step && !spec.tolerance) {
     return Finding{"step",
@@ -267,9 +268,10 @@ Found problem(const SimulationSpec& spec, const ModelDescription&) {
                                        step, spec.duration)};
   }
   if (spec.duration / step > kMostSteps) {
-    return Finding{"step", fmt::format("{:.3g} steps are more than can be counted; choose a longer "
-                                       "step",
-                                       spec.duration / step)};
+    return Finding{
+        "step",
+        fmt::format("{:.3g} steps exceed the range of the step counter; choose a longer step",
+                    spec.duration / step)};
   }
   return std::nullopt;
 }
@@ -278,8 +280,8 @@ Found problem(const StaticSpec& spec, const ModelDescription&) {
   const double first = spec.load_factor[0];
   const double last = spec.load_factor[1];
   if (first == last) {
-    return Finding{"load-factor", fmt::format("first and last load factor are both {:g}; give two "
-                                              "different ones, for example [0, 1]",
+    return Finding{"load-factor", fmt::format("the first and last load factors are both {:g}; give "
+                                              "two different ones, for example [0, 1]",
                                               first)};
   }
   if (spec.steps > kMostStaticPoints || spec.max_points > kMostStaticPoints) {

@@ -45,13 +45,13 @@ Found start_problem(const loads::JointStop& stop, bool turns, const ModelDescrip
   const bool is_given = found->is_given;
   return Finding{
       is_before ? "from" : "to",
-      fmt::format("the joint starts at {:g} {}{}, outside of its stops from {} to {} {}; {}", start,
-                  turns ? "rad" : "m", is_given ? "" : ", as placed",
-                  stop.from ? fmt::format("{:g}", *stop.from) : "-infinity",
-                  stop.to ? fmt::format("{:g}", *stop.to) : "infinity", turns ? "rad" : "m",
-                  is_given ? "start it within them"
-                           : "place the bodies within them, or start "
-                             "there by `initial`")};
+      fmt::format(
+          "the joint starts at {:g} {}{}, outside its stops from {} to {} {}; {}", start,
+          turns ? "rad" : "m", is_given ? "" : ", as placed",
+          stop.from ? fmt::format("{:g}", *stop.from) : "-infinity",
+          stop.to ? fmt::format("{:g}", *stop.to) : "infinity", turns ? "rad" : "m",
+          is_given ? "start it within them"
+                   : "place the bodies within the stops, or set a start within them by `initial`")};
 }
 
 }  // namespace
@@ -84,10 +84,10 @@ Found problem(const InitialJointSpec& spec, const ModelDescription& model) {
   const auto* joint = base::find_named(model.joints, spec.name);
   if (joint != nullptr && joint->laws().num_given() > 0 &&
       !std::holds_alternative<joints::SliderOnBeamSpec>(joint->kind)) {
-    return Finding{"",
-                   fmt::format("joint \"{}\" is a drive, whose law says where it starts; change "
-                               "that law",
-                               spec.name)};
+    return Finding{
+        "", fmt::format(
+                "joint \"{}\" is a drive, whose law determines where it starts; change that law",
+                spec.name)};
   }
   for (const base::CoordinateName& name : base::kCoordinateNames) {
     const char* key = spec.key_of(name);
@@ -109,23 +109,23 @@ Found problem(const InitialSpec& spec, const ModelDescription& model) {
   if (Found found = attached_problem(spec.released, "released", model)) return found;
   if (!spec.released.empty() && spec.start == StartKind::static_equilibrium) {
     return Finding{"released",
-                   fmt::format("the equilibrium counts all joints, \"{}\" among them; remove "
-                               "`start: static`, or let an event release the joint",
+                   fmt::format("the equilibrium is computed with all joints, including \"{}\"; "
+                               "remove `start: static`, or let an event release the joint",
                                spec.released.front())};
   }
   if (!spec.off.empty() && spec.start == StartKind::static_equilibrium) {
-    return Finding{"off", fmt::format("the equilibrium counts all loads, \"{}\" among them; remove "
-                                      "`start: static`, or let an event switch the load off",
-                                      spec.off.front())};
+    return Finding{"off",
+                   fmt::format("the equilibrium is computed with all loads, including \"{}\"; "
+                               "remove `start: static`, or let an event switch the load off",
+                               spec.off.front())};
   }
   if (spec.start != StartKind::static_equilibrium) return std::nullopt;
   for (const InitialJointSpec& joint : spec.joints) {
     for (const base::CoordinateName& name : base::kCoordinateNames) {
       if (!joint.value(name.which)) continue;
-      return Finding{"start",
-                     fmt::format("the equilibrium decides where joint \"{}\" starts; remove "
-                                 "its {} under `joints`, or `start: static`",
-                                 joint.name, name.key)};
+      return Finding{"start", fmt::format("the equilibrium determines where joint \"{}\" starts; "
+                                          "remove its {} under `joints`, or `start: static`",
+                                          joint.name, name.key)};
     }
   }
   return std::nullopt;

@@ -53,7 +53,7 @@ Found problem(const fem::BeamSpec& spec, const ModelDescription&) {
     if (mass.at != "start" && mass.at != "mid" && mass.at != "end") {
       return Finding{
           "masses",
-          fmt::format("unknown place \"{}\"; a beam has `start`, `mid` and `end`", mass.at)};
+          fmt::format("unknown point \"{}\"; a beam has `start`, `mid` and `end`", mass.at)};
     }
     if (mass.at == "mid" && spec.elements % 2 != 0) {
       return Finding{"elements", fmt::format("a mass at mid needs an even number of elements, "
@@ -180,9 +180,10 @@ Found problem(const fem::MeshSpec& spec, const ModelDescription&) {
   if (of_files != nullptr) {
     if (std::string(of_files) == "integration" &&
         !std::holds_alternative<fem::PlateMeshSpec>(spec.shape)) {
-      return Finding{"integration", "of a generated mesh it is a key of its shape; move it there"};
+      return Finding{"integration",
+                     "for a generated mesh this key belongs to the shape; move it there"};
     }
-    return Finding{of_files, "only meshes of files take this key; remove it"};
+    return Finding{of_files, "only meshes from files take this key; remove it"};
   }
   if (spec.length_unit || spec.mass_unit) {
     return Finding{spec.length_unit ? "length-unit" : "mass-unit",

@@ -242,7 +242,7 @@ TEST(DistributedLoads, SayWhatIsWrong) {
   expect_refused(beam, {"no faces", "line-load"});
   Described solid = loaded_block();
   solid.load<loads::LineLoadSpec>("snow").on = part("block");
-  expect_refused(solid, {"no beams and bars", "traction"});
+  expect_refused(solid, {"no beams or bars", "traction"});
   Described set = loaded_block();
   auto& force = set.load<loads::BodyForceSpec>("mag");
   force.on = part("block/core");

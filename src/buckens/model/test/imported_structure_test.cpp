@@ -231,10 +231,9 @@ TEST(ImportedStructure, SaysWhichSectionIsMissing) {
             "model.yaml:9:5: plate.msh has neither a property nor an element set \"ribs\". Did you "
             "mean \"rib\"?");
   given.sections = {rod("skin", 0.02)};
-  EXPECT_EQ(
-      message(mesh, given),
-      "model.yaml:9:5: plate.msh: there are no lines in \"skin\", to which this section could "
-      "belong");
+  EXPECT_EQ(message(mesh, given),
+            "model.yaml:9:5: plate.msh: there are no lines in \"skin\" to which this section could "
+            "apply");
   mesh.blocks[0].property = -1;
   given.sections = {rod("rib", 0.02)};
   EXPECT_EQ(

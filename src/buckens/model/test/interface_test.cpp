@@ -152,8 +152,8 @@ TEST(Interfaces, OnALineCarryForcesOnly) {
 
 TEST(Interfaces, OnALineAreNotHeldRigidNorOffTheirCentre) {
   auto spec = interface("edge", set({"corner_000", "corner_001"}), body::InterfaceKind::rigid);
-  expect_refused<InputError>(block({spec}),
-                             {"test.yaml:45:1", "it has 2 nodes", "or leave it `average`"});
+  expect_refused<InputError>(
+      block({spec}), {"test.yaml:45:1", "it has 2 nodes", "or make the interface `average`"});
   spec.kind = body::InterfaceKind::average;
   spec.at = Vector3d(0.1, 0, 0);
   expect_refused<InputError>(block({spec}), {"a force at `at`, off their centre, needs one"});

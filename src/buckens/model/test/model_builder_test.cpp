@@ -151,7 +151,7 @@ TEST(ModelBuilder, PlanarModelsRefuseWhatLeavesThePlane) {
   m.d.bodies[0].at.orientation->angle = 0.1;
   EXPECT_THAT([&] { m.build(); },
               ThrowsMessage<InputError>(AllOf(StartsWith("test.yaml:10:1"), HasSubstr("\"rod\""),
-                                              HasSubstr("turned out of the plane"))));
+                                              HasSubstr("rotated out of the plane"))));
 
   m.d.bodies[0].at.orientation->axis = Vector3d::UnitZ();
   m.joint<joints::RevoluteSpec>("hinge", "ground", "rod").axis = Vector3d::UnitX();
