@@ -19,4 +19,4 @@ def test_nothing_under_the_gpl_is_linked():
 
 @pytest.mark.skipif(may_mesh_step_files(), reason="built with BUCKENS_GPL=ON")
 def test_step_files_are_refused(buckens):
-    buckens("mesh-info", PARTS / "assembly.step").must(2, "assembly.step", "BUCKENS_GPL=OFF", "by another program")
+    buckens("mesh-info", PARTS / "assembly.step").must(2, "assembly.step", "BUCKENS_GPL=OFF", "with another program")

@@ -72,7 +72,7 @@ def test_a_face_that_folds_is_replaced(buckens):
     told = info(buckens, PARTS / "folded.step", "--size", "10 mm")
     assert told["volume"] == pytest.approx(BOX, rel=1e-6) and told["inverted"] == []
     assert told["face_sets"]["face_1"]["area"] == pytest.approx(6e-3, rel=1e-6)
-    assert "the surface of face 1 folds at an edge: a smooth one through the same edges was put in its place" in notes(told)
+    assert "the surface of face 1 folds at an edge and was replaced by a smooth one through the same edges" in notes(told)
     assert "elements have no volume, the first near (0, 0.0" in notes(told), "why the usual way failed"
 
 
@@ -86,10 +86,10 @@ def test_a_face_that_folds_and_bulges_is_replaced_or_refused_soon(buckens, tmp_p
         (tmp_path / f"{name}.step").write_text(new)
     told = info(buckens, tmp_path / "bulge.step", "--size", "10 mm")
     assert told["volume"] == pytest.approx(243576e-9, rel=1e-3) and told["inverted"] == []
-    assert "a smooth one through the same edges and some of its points was put in its place" in notes(told)
+    assert "was replaced by a smooth one through the same edges and some of its points" in notes(told)
     refused = buckens("mesh-info", tmp_path / "dome.step", "--size", "10 mm").must(2, "dome.step", "face 1 around (0.05",
-                                                                                    "changes the volume by", "anew")
-    assert "way 3" not in refused.err and "other ways were tried" not in refused.err
+                                                                                    "changes the volume by", "by a fill or loft")
+    assert "way 3" not in refused.err and "other methods were tried" not in refused.err
 
 
 def test_elements_that_gmsh_cannot_bend_are_straightened(buckens, bad):
@@ -108,7 +108,7 @@ def test_other_ways_are_tried_before_a_part_is_refused(buckens, bad):
     """Eight elements to a turn cut through a wall of 0.3 mm: smaller ones are used, and that is reported."""
     told = info(buckens, bad["thin_tube"], "--size", "12 mm")
     assert told["inverted"] == [] and told["pieces"] == 1
-    assert "elements that fit the walls, for the usual way failed: Gmsh:" in notes(told)
+    assert "elements that fit the walls, since the usual method failed: Gmsh:" in notes(told)
     assert re.search(r"faces cross in \d+ places, the first \(-?0\.0\d+, -?0\.0\d+, 0\.0\d+\) m on faces \d and \d", notes(told))
     assert told["volume"] == pytest.approx(math.pi * (0.0103**2 - 0.01**2) * 0.06, rel=5e-3)
 
@@ -124,7 +124,7 @@ def test_gaps_are_sewn_or_told(buckens, bad):
 
 def test_solids_that_overlap_or_touch_are_one_body(buckens, bad):
     overlap = info(buckens, bad["overlap"])
-    assert re.search(r'solids overlap \(".+" and ".+"\): what they have in common', notes(overlap)) and overlap["pieces"] == 1
+    assert re.search(r'solids overlap \(".+" and ".+"\): their common volume is counted once', notes(overlap)) and overlap["pieces"] == 1
     assert overlap["volume"] == pytest.approx(1.9 * BOX, rel=1e-9)
     touching = info(buckens, bad["touching"])
     assert touching["notes"] == [] and touching["pieces"] == 1 and touching["duplicate_nodes"] == []
@@ -141,7 +141,7 @@ def test_small_solids_that_nothing_meshes_with_others_are_left_out(buckens, bad)
     assert f", {100 * bolt / (block + bolt):.2g} % of the volume" in notes(told)
     assert info(buckens, bad["screwed"], "--solid", "2")["volume"] == pytest.approx(bolt * 1e-9, rel=3e-4)
     # A fifth of the volume is too much to leave out.
-    buckens("mesh-info", bad["pressed"]).must(2, "Solids overlap (", "make a body of each solid by `solid`")
+    buckens("mesh-info", bad["pressed"]).must(2, "Solids overlap (", "make each solid a separate body by `solid`")
 
 
 def test_walls_without_thickness_are_told(buckens, bad):
@@ -177,7 +177,7 @@ def test_files_that_were_cut_off_are_refused(buckens, tmp_path, bad):
         buckens("mesh-info", "part.step").must(2, f"part.step:{lines}:1: the STEP file is truncated", "END-ISO-10303-21")
     for share in (0.1, 0.5, 0.9):
         (tmp_path / "part.step").write_text(text[:int(share * len(text))] + "\nENDSEC;\nEND-ISO-10303-21;\n")
-        buckens("mesh-info", "part.step").must(2, "part.step: cannot be meshed", "entities are missing in the file",
+        buckens("mesh-info", "part.step").must(2, "part.step: cannot be meshed", "entities are missing from the file",
                                                "in line 22", "export it again")
 
 
@@ -187,7 +187,7 @@ def test_entities_that_nothing_defines_are_told(buckens, tmp_path, bad):
     (tmp_path / "part.step").write_text(text.replace("DATA;", "DATA;\n/* #98 */ #9001=COLOUR('#97',#9002);", 1))
     told = info(buckens, "part.step")
     line = text[:text.index("DATA;")].count("\n") + 2
-    assert f"(1 references to such, the first to #9002 in line {line})" in notes(told)
+    assert f"(1 references to them, the first to #9002 in line {line})" in notes(told)
     assert told["volume"] == pytest.approx(2 * BOX, rel=1e-9)
 
 
@@ -293,7 +293,7 @@ def test_solids_are_glued_once_for_all_ways(bad):
         if len(glued) > 1:
             break
     assert glued == {"", "3"}
-    assert "for the usual way failed: Gmsh:" in printed
+    assert "since the usual method failed: Gmsh:" in printed
     exact = math.pi * (0.0103**2 - 0.01**2) * 0.06 + math.pi * 0.0103**2 * 0.01
     assert number_in(printed, "pieces") == 1 and number_in(printed, "volume") == pytest.approx(exact, rel=5e-3)
 
@@ -301,9 +301,9 @@ def test_solids_are_glued_once_for_all_ways(bad):
 def test_the_default_size_follows_thin_walls(buckens, tmp_path, bad):
     """One flat element through 0.25 mm: smaller ones, until shells of another kind have the same frequencies."""
     told = info(buckens, bad["sheet"])
-    assert "elements of down to 2 mm in place of 3.4 mm follow walls of down to 0.25 mm (2 faces)" in notes(told)
+    assert "elements down to 2 mm instead of 3.4 mm resolve walls down to 0.25 mm (2 faces)" in notes(told)
     assert told["volume"] == pytest.approx(100 * 20 * 0.25e-9, rel=1e-9) and told["elements"] < 40000
-    assert "follow walls" not in notes(info(buckens, bad["sheet"], "--size", "3.4 mm")), "a given size is kept"
+    assert "resolve walls" not in notes(info(buckens, bad["sheet"], "--size", "3.4 mm")), "a given size is kept"
 
     def frequencies(body):
         (tmp_path / "sheet.yaml").write_text("buckens: 1\nmaterials: {steel: {E: 210 GPa, nu: 0.3, rho: 7850}}\n"
@@ -320,7 +320,7 @@ def test_the_default_size_follows_thin_walls(buckens, tmp_path, bad):
 
 def test_only_faces_with_thin_walls_get_smaller_elements(buckens, bad):
     told = info(buckens, bad["block_with_sheet"])
-    assert "follow walls of down to 0.3 mm (2 faces)" in notes(told) and told["pieces"] == 1
+    assert "resolve walls down to 0.3 mm (2 faces)" in notes(told) and told["pieces"] == 1
     assert told["volume"] == pytest.approx((60 * 60 * 40 + 40 * 60 * 0.3) * 1e-9, rel=1e-9)
     # The elements of first order are the same tetrahedra.
     everywhere = info(buckens, bad["block_with_sheet"], "--size", "2.4 mm", "--order", "1")

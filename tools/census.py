@@ -45,7 +45,7 @@ RIGHT = [re.compile(text) for text in (
     r"is connected to no element",  # a mass in the air, which only supports or contact would hold
     r"the (mass|stiffness) \S+ is negative",
     r"turned inside out", r"is a mechanism in itself",
-    r"no element of this deck can be part of a flexible body", r"plane and no part of a body in space",
+    r"no element of this deck can be part of a flexible body", r"plane and cannot be part of a three-dimensional body",
     r"and there is no \*NODE|the file has no \*NODE", r"the file has no nodes \(data sets",
     r"there is no solid, only", r"has no solid and no faces",
 )]

@@ -108,8 +108,8 @@ void GroupMesh::check_numbers() const {
     for (const std::int64_t id : block.ids) {
       if (seen.insert(id).second) continue;
       throw InputError({mesh_.file, 0, 0},
-                       fmt::format("two elements have the number {}; in Gmsh, Mesh.Renumber or "
-                                   "saving anew numbers them",
+                       fmt::format("two elements have the number {}; renumber them in Gmsh "
+                                   "(Mesh.Renumber), or save the mesh again",
                                    id));
     }
   }

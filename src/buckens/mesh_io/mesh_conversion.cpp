@@ -44,7 +44,7 @@ std::vector<fem::ImportNote> losses_in_vtu(const fem::ImportedMesh& mesh) {
   std::vector<fem::ImportNote> out;
   const auto note = [&](const char* what, std::size_t count) {
     if (count == 0) return;
-    out.push_back({fmt::format("{} have no place in a .vtu file and are left out", what), 0,
+    out.push_back({fmt::format("{} cannot be stored in a .vtu file and are left out", what), 0,
                    static_cast<int>(count)});
   };
   note("constants of materials", mesh.materials.size());

@@ -105,8 +105,8 @@ void MeshGroups::add_elements() {
   }
   if (renumbered > 0) {
     out_.notes.push_back(
-        {"elements whose number another one has, such as the second half of a quadratic beam, have "
-         "new numbers",
+        {"elements whose number is already taken, such as the second half of a quadratic beam, are "
+         "renumbered",
          0, renumbered});
   }
 }
@@ -199,9 +199,8 @@ void MeshGroups::add_faces() {
   }
   if (of_shells > 0) {
     out_.notes.push_back(
-        {"faces of shells have no place in a mesh of Gmsh, unless they are an element set seen "
-         "from "
-         "the side of its normals, and are left out",
+        {"faces of shells cannot be written to a Gmsh mesh, except as an element set seen from the "
+         "side of its normals, and are left out",
          0, of_shells});
   }
 }

@@ -45,8 +45,7 @@ std::vector<fem::ImportNote> SkipList::notes() const {
     }
     fem::ImportNote note;
     note.text = fmt::format(
-        "{} of {} left out as `skip` says; the body lacks their mass and "
-        "stiffness",
+        "{} of {} left out as requested by `skip`; the body lacks their mass and stiffness",
         entry.count, entry.name);
     note.line = entry.line;
     note.is_doubtful = true;

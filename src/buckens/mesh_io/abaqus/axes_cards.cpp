@@ -42,7 +42,8 @@ Matrix3d read_axes(AbaqusReading& in, const DeckKeyword& keyword, bool from_z) {
   const Vector3d origin = read_vector(in.lines, row, 6, "coordinate of point c");
   auto axes = axes_from(read_vector(in.lines, row, 0, "coordinate of point a") - origin,
                         read_vector(in.lines, row, 3, "coordinate of point b") - origin);
-  if (!axes) in.lines.fail(row.place, "the points a, b and c lie on one line and give no axes");
+  if (!axes)
+    in.lines.fail(row.place, "the points a, b and c lie on one line and do not define axes");
   if (!from_z) return *axes;
   // Point a lies on axis 3, b in the plane of axes 3 and 1.
   Matrix3d out;
@@ -56,7 +57,8 @@ void read_axis(AbaqusReading& in, AbaqusOrientation& out) {
   if (!in.lines.next_row(row)) return;
   out.a = read_vector(in.lines, row, 0, "coordinate of point a");
   out.b = read_vector(in.lines, row, 3, "coordinate of point b");
-  if (out.a == out.b) in.lines.fail(row.place, "the points a and b are one and give no axis");
+  if (out.a == out.b)
+    in.lines.fail(row.place, "the points a and b coincide and do not define an axis");
   out.is_cylindrical = true;
 }
 
@@ -152,7 +154,8 @@ void read_system(AbaqusReading& in, const DeckKeyword& keyword) {
     in_plane = read_vector(in.lines, second, 0, "coordinate in the x-y plane") - origin;
   }
   const auto axes = axes_from(on_x, in_plane);
-  if (!axes) in.lines.fail(keyword.place, "the points of *SYSTEM lie on one line and give no axes");
+  if (!axes)
+    in.lines.fail(keyword.place, "the points of *SYSTEM lie on one line and do not define axes");
   in.system_axes = *axes;
 }
 

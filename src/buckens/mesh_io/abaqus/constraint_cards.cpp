@@ -107,8 +107,8 @@ void read_distributing(AbaqusReading& in, const DeckKeyword& keyword) {
   std::fill_n(link.variables.begin(), 3, true);
   const std::string weighting = upper(in.optional_parameter(keyword, "WEIGHTINGMETHOD"));
   if (!weighting.empty() && weighting != "UNIFORM") {
-    in.note(keyword.place, fmt::format("*DISTRIBUTING, WEIGHTING METHOD={}: nodes count by their "
-                                       "area alone, not by their distance",
+    in.note(keyword.place, fmt::format("*DISTRIBUTING, WEIGHTING METHOD={}: nodes are weighted by "
+                                       "their area only, not by their distance",
                                        weighting));
   }
   if (upper(in.optional_parameter(keyword, "COUPLING")) == "STRUCTURAL") {
@@ -133,7 +133,7 @@ void read_kinematic_coupling(AbaqusReading& in, const DeckKeyword& keyword) {
 void read_rigid_body(AbaqusReading& in, const DeckKeyword& keyword) {
   if (keyword.has("ANALYTICALSURFACE")) {
     in.note(keyword.place,
-            "*RIGID BODY, ANALYTICAL SURFACE is ignored: it is a tool of contact without mass",
+            "*RIGID BODY, ANALYTICAL SURFACE is ignored: it serves contact only and has no mass",
             true);
   }
   const std::string reference = in.parameter(keyword, "REFNODE");
@@ -186,7 +186,8 @@ bool pass_over_mpc(AbaqusReading& in, DeckRow& row, const std::string& type) {
   if (type != "MEANROT" && type != "DIST") return false;
   in.note(row.place,
           type == "DIST"
-              ? "*MPC, DIST is ignored: a largest distance is a contact, which a body does not have"
+              ? "*MPC, DIST is ignored: a maximum distance is a contact condition, which a body "
+                "does not have"
               : "*MPC, MEANROT is ignored: it gives a mean rotation a name for supports and loads, "
                 "which come from the model file",
           type == "MEANROT");
@@ -201,8 +202,8 @@ void read_tie(AbaqusReading& in, const DeckKeyword& keyword) {
   for (const char* kind : {"CYCLICSYMMETRY", "MULTISTAGE", "FLUIDPERIODIC", "FLUIDCYCLIC"}) {
     if (!keyword.has(kind)) continue;
     return in.note(keyword.place,
-                   fmt::format("*TIE, {} is ignored: the body is the sector or stage that the deck "
-                               "has, with free faces where others follow",
+                   fmt::format("*TIE, {} is ignored: the body is the sector or stage in the deck, "
+                               "with free faces where the next ones adjoin",
                                kind));
   }
   AbaqusTie tie;
@@ -269,7 +270,7 @@ void read_mpc(AbaqusReading& in, const DeckKeyword& keyword) {
     }
     if (kind == AbaqusLinkKind::mpc_beam) {
       in.note(row.place,
-              "*MPC, BEAM: a rigid beam, as in Abaqus; CalculiX keeps the distance alone, so write "
+              "*MPC, BEAM: a rigid beam, as in Abaqus; CalculiX keeps only the distance, so write "
               "LINK in a deck of CalculiX");
     }
     if (row.cells.size() != 3) {

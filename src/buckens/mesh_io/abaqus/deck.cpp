@@ -127,7 +127,7 @@ class DeckReader {
 
   void close_part(const DeckKeyword& next) {
     in_.note(open_.place,
-             fmt::format("{} has no *END PART; it is taken to end before {} in line {}",
+             fmt::format("{} has no *END PART; it is assumed to end before {} in line {}",
                          open_.written, next.written, next.place.line));
     open_.name.clear();
     in_.scope = &in_.deck.root;
@@ -150,14 +150,14 @@ class DeckReader {
       case KeywordRole::nonlinear:
         return note(": materials are linear elastic", false);
       case KeywordRole::periodic:
-        return note(": the body is the part of the whole that the deck has", false);
+        return note(": the body is the part of the model that the deck contains", false);
       case KeywordRole::holding:
         in_.lines.fail(keyword.place,
-                       fmt::format("{} is not supported, and without it the body would have "
-                                   "another mesh, mass or stiffness{}",
+                       fmt::format("{} is not supported, and without it the body would have a "
+                                   "different mesh, mass or stiffness{}",
                                    keyword.written, SkipList::remedy(keyword.written.substr(1))));
       case KeywordRole::unknown:
-        return note(": it is not a keyword that is known here", false);
+        return note(": this keyword is unknown", false);
     }
   }
 
@@ -211,9 +211,11 @@ class DeckReader {
     }
     entries_of_instances_ += entries_of(found->second);
     if (entries_of_instances_ > kMostEntries) {
-      in_.lines.fail(keyword.place, fmt::format("the instances have more than {} nodes, nodes of "
-                                                "elements and members of sets together",
-                                                kMostEntries));
+      in_.lines.fail(
+          keyword.place,
+          fmt::format(
+              "the instances have more than {} nodes, element nodes and set members in total",
+              kMostEntries));
     }
     AbaqusInstance instance;
     instance.name = name;
@@ -286,7 +288,7 @@ class DeckReader {
     }
     if (in_.deck.parts.empty()) return;
     in_.deck.notes.push_back(
-        {"the deck has parts but no *INSTANCE that places them; each is taken once, where it was "
+        {"the deck has parts but no *INSTANCE that places them; each is used once, where it was "
          "drawn",
          0, static_cast<int>(in_.deck.parts.size())});
   }

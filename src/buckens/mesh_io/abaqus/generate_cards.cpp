@@ -168,7 +168,8 @@ class Arc {
 void read_ngen(AbaqusReading& in, const DeckKeyword& keyword) {
   const std::string line = upper(in.optional_parameter(keyword, "LINE"));
   if ((!line.empty() && line != "C") || keyword.has("SYSTEM")) {
-    refuse_generator(in, keyword, "along parabolas or in axes of its own is not supported");
+    refuse_generator(in, keyword,
+                     "along parabolas or in a separate coordinate system is not supported");
   }
   KnownNodes known(in);
   AbaqusSetPart* set = open_set(in, keyword, "NSET", in.scope->node_sets);
@@ -220,9 +221,10 @@ void read_nfill(AbaqusReading& in, const DeckKeyword& keyword) {
     const std::int64_t intervals = integer_or(in, row, 2, 1, "number of intervals");
     const std::int64_t step = integer_or(in, row, 3, 1, "increment of the numbers");
     if (from.size() != to.size() || intervals < 1) {
-      in.lines.fail(row.place, fmt::format("the sets have {} and {} nodes and {} intervals; they "
-                                           "must have as many, and one interval at least",
-                                           from.size(), to.size(), intervals));
+      in.lines.fail(row.place,
+                    fmt::format("the sets have {} and {} nodes and {} intervals; they must have "
+                                "equally many nodes, and at least one interval",
+                                from.size(), to.size(), intervals));
     }
     count_generated(in, intervals, row.place);
     count_generated(in, intervals * static_cast<std::int64_t>(from.size()), row.place);

@@ -170,7 +170,7 @@ class LinkMaker {
     if (link.kind == AbaqusLinkKind::distributing) {
       lines_.fail(link.place,
                   "*DISTRIBUTING with ORIENTATION and some rotations released is not supported; "
-                  "release all rotations or none, or give ORIENTATION up");
+                  "release all rotations or none, or remove ORIENTATION");
     }
     AbaqusTurnedCoupling(lines_, names_, turns_, out_).add(link, scope_, reference, nodes);
   }
@@ -256,7 +256,7 @@ class LinkMaker {
     if (second.size() == 1) second.resize(first.size(), second.front());
     if (first.size() != second.size() || first.empty()) {
       lines_.fail(link.place, fmt::format("the sets of the *MPC have {} and {} nodes; they must "
-                                          "have as many, or the second a single one",
+                                          "have equally many, or the second only one",
                                           first.size(), second.size()));
     }
     count_linked(6 * first.size(), link.place);
@@ -287,7 +287,7 @@ class LinkMaker {
     const Vector3d between = names_.positions()[static_cast<std::size_t>(a)] -
                              names_.positions()[static_cast<std::size_t>(b)];
     if (!(between.norm() > 0.0)) {
-      lines_.fail(place, "the *MPC LINK joins nodes at one place, where it has no direction");
+      lines_.fail(place, "the *MPC LINK joins coincident nodes, between which it has no direction");
     }
     const Vector3d along = between.normalized();
     fem::ImportedEquation& out = out_.equations.emplace_back();
@@ -312,7 +312,7 @@ class LinkMaker {
       const bool fits = list.size() == num_equations || list.size() == 1;
       if (num_equations > 0 && fits) continue;
       lines_.fail(equation.place, fmt::format("the sets of the equation have {} and {} nodes; they "
-                                              "must have as many, or a single one",
+                                              "must have equally many, or only one",
                                               num_equations, list.size()));
     }
     note_turned(equation.place);
@@ -339,8 +339,7 @@ class LinkMaker {
         const Vector3d between = names_.positions()[static_cast<std::size_t>(nodes[1])] -
                                  names_.positions()[static_cast<std::size_t>(nodes[0])];
         if (!(between.norm() > 0.0)) {
-          lines_.fail(spring.place,
-                      "a SPRINGA lies between nodes at one place and has no direction");
+          lines_.fail(spring.place, "a SPRINGA joins coincident nodes and has no direction");
         }
         const Vector3d along = between.normalized();
         own.stiffness.topLeftCorner<3, 3>() = spring.stiffness * along * along.transpose();
@@ -397,9 +396,9 @@ class LinkMaker {
                         (placed.rotation * transform.a + placed.origin);
       radial -= radial.dot(axis) * axis;
       if (radial.norm() == 0.0) {
-        lines_.fail(transform.place,
-                    "a node of this *TRANSFORM lies on its axis, where no radial "
-                    "direction is");
+        lines_.fail(
+            transform.place,
+            "a node of this *TRANSFORM lies on its axis, where the radial direction is undefined");
       }
       out.col(0) = radial.normalized();
       out.col(1) = axis.cross(out.col(0));

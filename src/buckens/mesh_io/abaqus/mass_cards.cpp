@@ -20,11 +20,10 @@ using Eigen::Vector3d;
 void read_mass(AbaqusReading& in, const DeckKeyword& keyword) {
   const std::string type = upper(in.optional_parameter(keyword, "TYPE"));
   if (!type.empty() && type != "ISOTROPIC") {
-    in.lines.fail(
-        keyword.place,
-        fmt::format("a *MASS of TYPE={} acts differently in its directions, which no body "
-                    "in space does; give one mass",
-                    type));
+    in.lines.fail(keyword.place,
+                  fmt::format("a *MASS of TYPE={} differs between directions, which is impossible "
+                              "for a three-dimensional body; give one mass",
+                              type));
   }
   AbaqusMass& mass = in.scope->masses.emplace_back();
   mass.element_set = in.parameter(keyword, "ELSET");

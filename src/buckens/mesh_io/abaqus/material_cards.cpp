@@ -46,9 +46,9 @@ std::vector<double> first_constants(AbaqusReading& in, const DeckKeyword& keywor
     }
   }
   if (in.lines.next_row(row)) {
-    in.note(keyword.place, fmt::format("{}: values for several temperatures or fields; the first "
-                                       "of them is taken",
-                                       keyword.written));
+    in.note(keyword.place,
+            fmt::format("{}: values for several temperatures or fields; the first one is used",
+                        keyword.written));
   }
   return out;
 }
@@ -105,18 +105,19 @@ fem::OrthotropicSpec from_all_stiffnesses(AbaqusReading& in, const DeckKeyword& 
   if (!(coupling_of(C) <= kNoCoupling)) {
     axes = symmetry_axes(C, kFiveDigits);
     if (!axes) {
-      in.lines.fail(keyword.place,
-                    fmt::format("*ELASTIC of TYPE=ANISOTROPIC: material \"{}\" couples stretch and "
-                                "shear in all axes (in those given, by {:.2g} of its largest "
-                                "constant); only materials with three planes of symmetry, however "
-                                "turned, are supported. Leave out what couples, or give another "
-                                "material in the model file: materials: {{\"{}\": …}}",
-                                name, coupling_of(C), name));
+      in.lines.fail(
+          keyword.place,
+          fmt::format(
+              "*ELASTIC of TYPE=ANISOTROPIC: material \"{}\" couples stretch and shear in all axes "
+              "(in those given, by {:.2g} of its largest constant); only materials with three "
+              "planes of symmetry, in any orientation, are supported. Remove the coupling terms, "
+              "or give another material in the model file: materials: {{\"{}\": …}}",
+              name, coupling_of(C), name));
     }
     C = in_axes(C, *axes);
     in.note(keyword.place,
-            "*ELASTIC of TYPE=ANISOTROPIC: what couples stretch and shear vanishes in other axes; "
-            "the material is taken as an orthotropic one in these");
+            "*ELASTIC of TYPE=ANISOTROPIC: the coupling of stretch and shear vanishes in other "
+            "axes; the material is taken as orthotropic in those axes");
   }
   fem::OrthotropicSpec out = constants_of(in, keyword, C);
   if (axes) {
@@ -155,11 +156,9 @@ void read_elastic(AbaqusReading& in, const DeckKeyword& keyword) {
     material.E = v[0];
     material.nu = v[1];
     if (material.E > 0.0 && material.nu > -1.0 && material.nu <= 0.5) return;
-    in.lines.fail(
-        keyword.place,
-        fmt::format("material \"{}\" has E = {:g} and nu = {:g}; E must be positive and nu "
-                    "lie between -1 and 0.5",
-                    material.name, material.E, material.nu));
+    in.lines.fail(keyword.place, fmt::format("material \"{}\" has E = {:g} and nu = {:g}; E must "
+                                             "be positive, and nu must lie between -1 and 0.5",
+                                             material.name, material.E, material.nu));
   }
   if (type == "ENGINEERINGCONSTANTS") {
     material.orthotropic = engineering(first_constants(in, keyword, 9));

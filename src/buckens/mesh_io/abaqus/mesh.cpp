@@ -241,7 +241,7 @@ void AbaqusMesh::note_element_types() {
   for (const auto& [type, entry] : edges) {
     out_.notes.push_back(note_at(entry.first,
                                  fmt::format("{} without a section beside solids, shells or beams "
-                                             "are left out; mesh generators write edges so",
+                                             "are left out; mesh generators write edges this way",
                                              type->name),
                                  entry.second));
   }

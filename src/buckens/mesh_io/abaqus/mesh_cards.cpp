@@ -49,8 +49,8 @@ bool element_cells(AbaqusReading& in, const AbaqusElementType& type,
     if (!goes_on) return true;
     if (in.lines.next_row(row)) continue;
     if (type.num_nodes < 0) return true;
-    in.lines.fail(place, fmt::format("the element goes on after the comma, but the data end here; "
-                                     "{} of its {} nodes are there",
+    in.lines.fail(place, fmt::format("the element continues after the comma, but the data end "
+                                     "here; {} of its {} nodes are there",
                                      cells.size() - 1, type.num_nodes));
   }
 }
@@ -61,8 +61,8 @@ void check_count(AbaqusReading& in, const AbaqusElementType& type, std::size_t g
   const bool has_direction = type.role == AbaqusRole::beam && given == needed + 1;
   if (given == needed || has_direction) return;
   if (given > needed && type.role != AbaqusRole::beam) {
-    in.note(place, fmt::format("an element of type {} has {} nodes; those behind them on its line "
-                               "are left out, as CalculiX does",
+    in.note(place, fmt::format("an element of type {} has {} nodes; any further ones on its line "
+                               "are left out, as in CalculiX",
                                type.name, needed));
     return;
   }
@@ -87,13 +87,13 @@ const AbaqusElementType* skipped_type(AbaqusReading& in, const std::string& name
 
 const char* why_unusable(const std::string& name) {
   if (name.starts_with("CAX") || name.starts_with("MAX") || name.starts_with("SAX")) {
-    return "are axisymmetric and no part of a body in space";
+    return "are axisymmetric and cannot be part of a three-dimensional body";
   }
   if (name.starts_with("M3D")) return "are membranes, which are not supported";
   if (name.starts_with("COH") || name.starts_with("GK")) {
     return "are cohesive or gasket elements, which are not supported";
   }
-  if (name.starts_with("U")) return "are user elements, of which the deck does not say all";
+  if (name.starts_with("U")) return "are user elements, which the deck does not fully define";
   return "cannot be used";
 }
 
@@ -167,7 +167,7 @@ void read_nodes(AbaqusReading& in, const DeckKeyword& keyword) {
     const Vector3d given = read_vector(in.lines, row, 1, "coordinate");
     if (!row.cell(4).empty() || !row.cell(5).empty() || !row.cell(6).empty()) {
       in.note(row.place,
-              "*NODE: normals behind the coordinates are left out; beams have the directions of "
+              "*NODE: normals after the coordinates are left out; beams have the directions of "
               "their sections, shells the normals of their elements");
     }
     nodes.ids.push_back(id);

@@ -121,11 +121,10 @@ int AbaqusMesh::shifted_node(int node, const Vector3d& shift, DeckPlace place) {
   if (!is_new) return entry->second;
   if (shifted_.size() == 1) {
     free_label_ = *std::max_element(out_.node_ids.begin(), out_.node_ids.end());
-    out_.notes.push_back(
-        note_at(place,
-                "beams beside their nodes (OFFSET1, OFFSET2, unequal walls of a BOX) have "
-                "nodes of their own on rigid links",
-                1));
+    out_.notes.push_back(note_at(place,
+                                 "beams offset from their nodes (OFFSET1, OFFSET2, unequal walls "
+                                 "of a BOX) get additional nodes on rigid links",
+                                 1));
   }
   const Vector3d position = out_.positions[static_cast<std::size_t>(node)] + shift;
   out_.positions.push_back(position);

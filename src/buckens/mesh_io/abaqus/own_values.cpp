@@ -59,7 +59,7 @@ AbaqusMesh::OwnValues AbaqusMesh::own_values(int scope, const AbaqusSection& sec
     if (!out.axes) {
       lines_.fail(axes->place,
                   fmt::format("the points a and b of an element by distribution \"{}\" lie on one "
-                              "line with the origin and give no axes",
+                              "line with the origin and do not define axes",
                               axes->distribution));
     }
   }
@@ -157,10 +157,10 @@ void AbaqusMesh::set_layer_angles(int scope, const AbaqusSection& section,
     }
     const Vector3d to = first_axis(*axes, {});
     if (!(to.norm() > kNormal)) {
-      lines_.fail(layer.place, fmt::format("direction 1 of orientation \"{}\" is along the normal "
-                                           "of an element of \"{}\"; name another axis as near "
-                                           "its normal",
-                                           layer.orientation, section.element_set));
+      lines_.fail(layer.place,
+                  fmt::format("direction 1 of orientation \"{}\" is along the normal of an element "
+                              "of \"{}\"; name another axis as the one near its normal",
+                              layer.orientation, section.element_set));
     }
     angle = rounded(std::atan2(normal.dot(from.cross(to)), from.dot(to)));
     if (std::abs(angle) < kSameDirection) angle = 0.0;

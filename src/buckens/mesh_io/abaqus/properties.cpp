@@ -90,8 +90,8 @@ void AbaqusMesh::assign_sections(int scope) {
       const AbaqusElementType& type = *block->type;
       if (type.role == AbaqusRole::plane) {
         lines_.fail(block->places[place_in_block],
-                    fmt::format("elements of type {} with a section are plane and no part of a "
-                                "body in space{}",
+                    fmt::format("elements of type {} with a section are plane and cannot be part "
+                                "of a three-dimensional body{}",
                                 type.name, SkipList::remedy(type.name)));
       }
       if (!is_kept(type.role)) continue;
@@ -110,7 +110,7 @@ void AbaqusMesh::assign_sections(int scope) {
   }
   if (replaced == 0) return;
   out_.notes.push_back(
-      note_at(where, "elements with two sections: the one that comes last is taken", replaced));
+      note_at(where, "elements with two sections: the last one is used", replaced));
 }
 
 int AbaqusMesh::property_for(int scope, const AbaqusSection& section, int element) {

@@ -72,8 +72,8 @@ void refuse_stiffnesses(AbaqusReading& in, const DeckKeyword& keyword) {
   const bool is_general = keyword.name == "SHELLGENERALSECTION";
   if (is_general && !keyword.has("COMPOSITE") && !keyword.has("MATERIAL")) {
     in.lines.fail(keyword.place,
-                  "a shell by its stiffnesses is not supported; give MATERIAL and a thickness, or "
-                  "layers with COMPOSITE");
+                  "a shell defined by its stiffnesses is not supported; give MATERIAL and a "
+                  "thickness, or layers with COMPOSITE");
   }
 }
 
@@ -98,7 +98,7 @@ void read_beam_offset(AbaqusReading& in, const DeckKeyword& keyword, AbaqusSecti
     if (*value != 0.0 && measure == 0.0) {
       in.lines.fail(keyword.place,
                     fmt::format("{}={}: offsets need a section of type RECT, CIRC, PIPE or BOX; "
-                                "give the beams nodes of their own and join these by *MPC, BEAM",
+                                "give the beams separate nodes and join them by *MPC, BEAM",
                                 kKeys[k], text.substr(0, 40)));
     }
     section.shift[k] -= *value * measure;
@@ -112,15 +112,14 @@ void read_nodal_measures(AbaqusReading& in, const DeckKeyword& keyword, const st
   section.is_round = shape.starts_with("CIRC");
   if (!section.is_round && !shape.starts_with("RECT")) {
     in.lines.fail(keyword.place, fmt::format("NODAL THICKNESS with SECTION={}: it is for RECT and "
-                                             "CIRC; give each other shape a section of its own",
+                                             "CIRC; give every other shape a separate section",
                                              shape));
   }
   for (const char* offset : {"OFFSET1", "OFFSET2"}) {
     if (!keyword.has(offset)) continue;
-    in.lines.fail(keyword.place,
-                  fmt::format("{} with NODAL THICKNESS is not supported; give the beams nodes of "
-                              "their own and join these by *MPC, BEAM",
-                              offset));
+    in.lines.fail(keyword.place, fmt::format("{} with NODAL THICKNESS is not supported; give the "
+                                             "beams separate nodes and join them by *MPC, BEAM",
+                                             offset));
   }
   DeckRow row;
   if (!in.lines.next_row_or_blank(row)) return;
@@ -142,16 +141,15 @@ fem::SectionSpec read_box(AbaqusReading& in, const DeckRow& row, AbaqusSection& 
     t[k] = row.cell(2 + k).empty() && k > 0 ? t[0] : positive(in, row, 2 + k, "wall of the box");
   }
   if (t[0] + t[2] >= a || t[1] + t[3] >= b) {
-    in.lines.fail(row.place, "the walls are thicker than half of the box; use SECTION=RECT");
+    in.lines.fail(row.place, "the walls are thicker than half the box; use SECTION=RECT");
   }
   if (t[0] == t[2] && t[1] == t[3]) return box_section({a, b, t[0], t[1]});
   UnequalBox box = unequal_box_section(a, b, t);
   section.shift = {box.centroid[0], box.centroid[1]};
   section.turn = box.angle;
-  in.note(
-      row.place,
-      "SECTION=BOX with unequal walls: beams lie in the centroid beside their nodes; torsion is "
-      "about it, too, and not about the shear centre");
+  in.note(row.place,
+          "SECTION=BOX with unequal walls: beams run through the centroid, offset from their "
+          "nodes, and also twist about it, not about the shear centre");
   return std::move(box.section);
 }
 
@@ -166,8 +164,8 @@ fem::SectionSpec read_i_section(AbaqusReading& in, const DeckRow& row) {
   const auto differ = [height = h](double a, double b) { return std::abs(a - b) > 1e-5 * height; };
   if (differ(b1, b2) || differ(t1, t2) || differ(origin, 0.5 * h)) {
     in.lines.fail(row.place,
-                  "an I section needs like flanges and its origin at half of the height, since "
-                  "beams run through centroid and shear centre; give others as SECTION=GENERAL");
+                  "an I section needs equal flanges and its origin at half the height, since beams "
+                  "run through centroid and shear centre; give others as SECTION=GENERAL");
   }
   const NastranShapeConstants own = nastran_shape("I", {h, b1, b2, web, t1, t2});
   if (!(own.A > 0.0))
@@ -273,7 +271,7 @@ Eigen::Vector2d outer_measures(AbaqusReading& in, const std::string& name, const
 void read_shape_rows(AbaqusReading& in, const std::string& name, AbaqusSection& section) {
   DeckRow row;
   if (!in.lines.next_row(row))
-    in.lines.fail(section.place, "the measures of the section are missing");
+    in.lines.fail(section.place, "the dimensions of the section are missing");
   section.shape = read_shape(in, name, row, section);
   section.shape->where = in.lines.where(row.place);
   section.measures = outer_measures(in, name, row);

@@ -140,7 +140,7 @@ const std::vector<Entry>& AbaqusNames::members(int scope, const AbaqusSet& set,
   num_entries_ += out.size();
   if (num_entries_ > kMostEntries) {
     lines_.fail(set.parts.front().place,
-                fmt::format("the sets hold more than {} entries together", kMostEntries));
+                fmt::format("the sets hold more than {} entries in total", kMostEntries));
   }
   return known[{scope, &set}] = std::move(out);
 }

@@ -164,8 +164,7 @@ void TieMaker::add(int scope, const AbaqusTie& tie) {
   const std::vector<AbaqusFace> faces = names_.faces(scope, tie.master, tie.place);
   if (faces.empty()) {
     lines_.fail(tie.place, fmt::format("*TIE: the master surface \"{}\" has no faces of solids or "
-                                       "shells; make it of TYPE=ELEMENT, or exchange it with the "
-                                       "slave",
+                                       "shells; make it of TYPE=ELEMENT, or swap it with the slave",
                                        tie.master));
   }
   MasterFaces master(faces, names_.positions());
@@ -197,8 +196,8 @@ void TieMaker::add(int scope, const AbaqusTie& tie) {
   }
   if (gaps > 0) {
     note(tie,
-         fmt::format("nodes lie beside the master surface, by up to {:.3g}; they stay there "
-                     "and turn with its faces",
+         fmt::format("nodes lie off the master surface, by up to {:.3g}; they stay there and "
+                     "rotate with its faces",
                      gap),
          gaps);
   }
@@ -209,7 +208,8 @@ void TieMaker::add(int scope, const AbaqusTie& tie) {
                      tie.slave, reach, tie.master),
          untied);
   }
-  if (again > 0) note(tie, "nodes that another *TIE ties already are left to that one", again);
+  if (again > 0)
+    note(tie, "nodes that are already tied by another *TIE are left to that one", again);
   if (hinges > 0) {
     note(tie, "rotations of shells and beams are not tied to solids, which have none", hinges);
   }
@@ -266,7 +266,7 @@ void TieMaker::add_equation(fem::ImportedEquation equation, const AbaqusTie& tie
   equation.line = tie.place.file == 0 ? tie.place.line : 0;
   num_terms_ += equation.terms.size();
   if (num_terms_ > kMostTieTerms) {
-    lines_.fail(tie.place, fmt::format("the ties have more than {} terms together", kMostTieTerms));
+    lines_.fail(tie.place, fmt::format("the ties have more than {} terms in total", kMostTieTerms));
   }
   out_.equations.push_back(std::move(equation));
 }

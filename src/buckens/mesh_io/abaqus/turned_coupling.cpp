@@ -45,8 +45,8 @@ Matrix3d AbaqusTurnedCoupling::axes_at(int node, const AbaqusOrientation& orient
   const Vector3d radial = from - from.dot(axis) * axis;
   if (!(radial.norm() > 1e-9 * from.norm())) {
     lines_.fail(place,
-                fmt::format("node {} lies on the axis of orientation \"{}\", where no radial "
-                            "direction is",
+                fmt::format("node {} lies on the axis of orientation \"{}\", where the radial "
+                            "direction is undefined",
                             names_.labels()[static_cast<std::size_t>(node)], orientation.name));
   }
   Matrix3d out;

@@ -46,8 +46,8 @@ MshVersion read_version(MeshText& text) {
     out.major = 2;
   } else {
     text.fail(
-        fmt::format("version {:.20} of the format of Gmsh cannot be read; 1, 2, 4.0 and 4.1 can "
-                    "(in Gmsh: File > Export, or `gmsh -format msh41`)",
+        fmt::format("version {:.20} of the Gmsh format cannot be read; 1, 2, 4.0 and 4.1 can (in "
+                    "Gmsh: File > Export, or `gmsh -format msh41`)",
                     version));
   }
   out.is_binary = text.integer("the mode of the file, 0 or 1", 0, 1) == 1;

@@ -58,8 +58,8 @@ void read_elements(GmshReader& reader) {
     const auto in_block = static_cast<std::size_t>(reader.int32("a number of elements", 1));
     const auto tags = static_cast<std::size_t>(reader.int32("the number of tags", 0));
     if (in_block > count - done) {
-      reader.text().fail(fmt::format("{} elements follow, but only {} of {} are missing", in_block,
-                                     count - done, count));
+      reader.text().fail(fmt::format("{} elements follow, but only {} of {} are still expected",
+                                     in_block, count - done, count));
     }
     for (std::size_t i = 0; i < in_block; ++i) {
       read_tags_and_nodes(reader, {&element, in_block, tags},

@@ -143,7 +143,7 @@ class MatrixReader {
     }
     if (above == nullptr || below == nullptr) return;
     fail(std::max(above->line, below->line),
-         "the matrix is said to be symmetric, of which one triangle is written, but there are "
+         "the matrix is declared symmetric, so only one triangle may be written, but there are "
          "entries on both sides of the diagonal; write \"general\" in the first line");
   }
 

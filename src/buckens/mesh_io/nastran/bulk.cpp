@@ -73,9 +73,9 @@ std::string reason_to_refuse(std::string_view name) {
       {"CWELD", "connections of patches are not supported; use RBE3 and CBUSH"},
       {"CFAST", "connections of patches are not supported; use RBE3 and CBUSH"},
       {"CSEAM", "connections of patches are not supported; use RBE3"},
-      {"CTRIAX6", "axisymmetric elements have no place in a spatial body"},
-      {"CTRIAX", "axisymmetric elements have no place in a spatial body"},
-      {"CQUADX", "axisymmetric elements have no place in a spatial body"},
+      {"CTRIAX6", "axisymmetric elements cannot be part of a three-dimensional body"},
+      {"CTRIAX", "axisymmetric elements cannot be part of a three-dimensional body"},
+      {"CQUADX", "axisymmetric elements cannot be part of a three-dimensional body"},
       {"RTRPLT1", "this rigid element is not supported; use RBE2"},
       {"RBAR1", "this rigid element is not supported; use RBAR"},
       {"RJOINT", "this rigid element is not supported; use a joint of the model file"},
@@ -90,7 +90,7 @@ std::string reason_to_refuse(std::string_view name) {
 [[noreturn]] void refuse_further_section(const NastranCard& card) {
   throw InputError(card.where(),
                    "a further section of bulk data (BEGIN SUPER, a superelement) is not supported; "
-                   "write it as a deck of its own, or let Nastran write the whole as one" +
+                   "write it as a separate deck, or have Nastran write a single section" +
                        SkipList::remedy("SUPER"));
 }
 

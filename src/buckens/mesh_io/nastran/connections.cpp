@@ -47,8 +47,8 @@ std::array<bool, 3> ConnectionBuilder::read_weight(const NastranCard& card, int 
   const Variables used = read_nastran_variables(card, field + 1);
   if (is_without(used, 0)) {
     card.fail(field + 1,
-              "no displacement (1, 2, 3) of the nodes counts; means of rotations alone are not "
-              "supported");
+              "no displacement component (1, 2, 3) of the nodes is used; averages of rotations "
+              "alone are not supported");
   }
   if (!is_without(used, 3)) {
     notes_.add("RBE3: rotations of the nodes do not take part in the mean", {card.file, card.line});

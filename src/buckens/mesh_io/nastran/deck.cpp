@@ -24,11 +24,10 @@ constexpr std::size_t kLargestDeck = std::size_t{2} << 30;
 void note_sections(const NastranControl& control, bool found_end, const NastranFile& file,
                    NastranNotes& notes) {
   if (control.num_lines > 0) {
-    notes.add(
-        fmt::format("executive and case control, {} lines: left out but for SET, MPC, NSM and "
-                    "PARAM,WTMASS",
-                    control.num_lines),
-        {&file, 1}, true);
+    notes.add(fmt::format("executive and case control, {} lines: left out except for SET, MPC, NSM "
+                          "and PARAM,WTMASS",
+                          control.num_lines),
+              {&file, 1}, true);
   }
   if (control.present && !found_end) {
     notes.add("ENDDATA is missing; is the deck complete?", {&file, 0});

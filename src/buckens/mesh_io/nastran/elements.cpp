@@ -215,7 +215,7 @@ int ElementBuilder::shifted_end(int node, const Vector3d& shift, const NastranEl
     link.nodes = {entry->second};
     link.line = element.place.line;
     mesh_.rigid_links.push_back(std::move(link));
-    notes_.add(fmt::format("{}: offsets WA, WB become nodes of their own with rigid links",
+    notes_.add(fmt::format("{}: offsets WA, WB become additional nodes on rigid links",
                            name_of(element.kind)),
                element.place);
   }
@@ -238,7 +238,7 @@ Vector3d ElementBuilder::up_direction(const NastranElement& element, const Nastr
   const Vector3d x = along.normalized();
   const Vector3d z = x.cross(v);
   if (!(along.norm() > 0.0) || !(z.norm() > 1e-6 * v.norm())) {
-    fail(element, "both ends are at one place, or the orientation vector is along the beam");
+    fail(element, "both ends coincide, or the orientation vector is parallel to the beam");
   }
   const Vector3d z_unit = z.normalized();
   return std::cos(angle) * z_unit - std::sin(angle) * z_unit.cross(x);
@@ -272,8 +272,8 @@ void ElementBuilder::add_hinges(const NastranElement& element, const NastranLine
         nodes_[end], axes, line.pins[end],
         fmt::format("pin {} of {} {}", end == 0 ? "PA" : "PB", name_of(element.kind), element.id),
         element.place.line, coordinates_, mesh_);
-    notes_.add(fmt::format("{}: pin flags PA, PB become nodes of their own, tied in what is not "
-                           "released",
+    notes_.add(fmt::format("{}: pin flags PA, PB become additional nodes, tied in the components "
+                           "that are not released",
                            name_of(element.kind)),
                element.place);
   }

@@ -50,9 +50,10 @@ fem::OrthotropicSpec read_mat8(const NastranCard& card) {
   out.E3 = out.E2;
   out.nu12 = card.real(3, 0.0);
   if (!(out.nu12 * out.nu12 * out.E2 < out.E1)) {
-    card.fail(3, fmt::format("NU12 = {:g} is too large for E1/E2 = {:g}: the material would give "
-                             "energy",
-                             out.nu12, out.E1 / out.E2));
+    card.fail(
+        3,
+        fmt::format("NU12 = {:g} is too large for E1/E2 = {:g}: the material would generate energy",
+                    out.nu12, out.E1 / out.E2));
   }
   out.G12 = card.positive(4);
   out.G13 = card.real(5, 0.0);
@@ -85,11 +86,11 @@ fem::OrthotropicSpec read_mat9(const NastranCard& card) {
   if (C.cwiseAbs().maxCoeff() > 0 && !(coupling_of(C) <= kUncoupled)) {
     axes = symmetry_axes(C, kTurnedDigits);
     if (!axes) {
-      card.fail(fmt::format(
-          "it couples tension and shear in all axes (in those given, by {:.2g} of its largest "
-          "constant); only materials with three planes of symmetry, however turned, are supported. "
-          "Leave out what couples",
-          coupling_of(C)));
+      card.fail(
+          fmt::format("it couples tension and shear in all axes (in those given, by {:.2g} of its "
+                      "largest constant); only materials with three planes of symmetry, in any "
+                      "orientation, are supported. Remove the coupling terms",
+                      coupling_of(C)));
     }
     C = in_axes(C, *axes);
   }
@@ -227,7 +228,8 @@ void NastranMaterials::set_moduli(const NastranCard& card, Use use, fem::Materia
     card.fail(3, fmt::format("Poisson's ratio {:g} must lie between -1 and 0.5", moduli.nu));
   }
   if (!moduli.is_rounded() && (use == Use::solid || use == Use::shell)) {
-    notes_->add("MAT1: a G that is not that of E and NU is left out for solids and shells", place);
+    notes_->add("MAT1: a G that does not follow from E and NU is left out for solids and shells",
+                place);
   }
 }
 
@@ -248,9 +250,8 @@ fem::MaterialSpec NastranMaterials::convert(const NastranCard& card, Use use) {
     out.orthotropic = read_mat9(card);
     if (is_turned(out)) {
       notes_->add(
-          "MAT9: what couples tension and shear vanishes in other axes; the material is taken as "
-          "an "
-          "orthotropic one in these",
+          "MAT9: the coupling of tension and shear vanishes in other axes; the material is taken "
+          "as orthotropic in those axes",
           {card.file, card.line});
     }
   }

@@ -97,7 +97,7 @@ class SpringBuilder {
       : coordinates_(coordinates), notes_(notes), mesh_(mesh) {
     for (const NastranCard& card : bulk.cards_named("PBUSH1D")) {
       axial_stiffnesses_.try_emplace(card.id(0), card.real(1, 0.0));
-      notes.add("PBUSH1D: K alone is taken; damping, mass and tables are left out",
+      notes.add("PBUSH1D: only K is used; damping, mass and tables are left out",
                 {card.file, card.line});
     }
     for (const NastranCard& card : bulk.cards_named("PBUSH")) {
@@ -136,7 +136,7 @@ Matrix3d SpringBuilder::axes_of(const NastranCard& card, const std::array<int, 2
     return coordinates_.axes_at(system, place, where);
   }
   const Vector3d along = position(nodes[1]) - position(nodes[0]);
-  if (!(along.norm() > 0)) card.fail(7, "is blank; nodes at one place need a system CID");
+  if (!(along.norm() > 0)) card.fail(7, "is blank; coincident nodes need a coordinate system CID");
   Vector3d v = Vector3d::Zero();
   if (!card.blank(4) && card.is_integer(4) && card.blank(5) && card.blank(6)) {
     v = position(node_of(card, 4, coordinates_)) - position(nodes[0]);
@@ -149,7 +149,8 @@ Matrix3d SpringBuilder::axes_of(const NastranCard& card, const std::array<int, 2
   Matrix3d axes;
   axes.col(0) = along.normalized();
   const Vector3d z = axes.col(0).cross(v);
-  if (!(z.norm() > 1e-6 * v.norm())) card.fail(4, "the orientation vector is along the spring");
+  if (!(z.norm() > 1e-6 * v.norm()))
+    card.fail(4, "the orientation vector is parallel to the spring");
   axes.col(2) = z.normalized();
   axes.col(1) = axes.col(2).cross(axes.col(0));
   return axes;
@@ -174,7 +175,7 @@ int SpringBuilder::tie(int node, const Vector3d& place, const NastranCard& card)
   link.nodes = {added};
   link.line = card.line;
   mesh_.rigid_links.push_back(std::move(link));
-  notes_.add("CBUSH: springs off their nodes become nodes of their own with rigid links",
+  notes_.add("CBUSH: springs offset from their nodes get additional nodes on rigid links",
              {card.file, card.line});
   return added;
 }
@@ -247,10 +248,12 @@ void SpringBuilder::add_axial(const NastranCard& card) {
     if (system < 0) card.fail(4, "there are no such coordinate systems");
     along = coordinates_.axes_at(system, position(nodes[0]), {card.file, card.line}).col(0);
     if (between.cross(along).norm() > 1e-6 * between.norm()) {
-      card.fail(4, "x of CID is across the line of the nodes; use CBUSH with K1 alone");
+      card.fail(4,
+                "the x axis of CID is perpendicular to the line between the nodes; use CBUSH with "
+                "K1 only");
     }
   } else if (!(between.norm() > 0)) {
-    card.fail(4, "is blank; nodes at one place need a system CID");
+    card.fail(4, "is blank; coincident nodes need a coordinate system CID");
   }
   fem::ImportedSpring spring;
   spring.nodes = nodes;

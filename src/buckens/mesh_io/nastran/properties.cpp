@@ -174,8 +174,8 @@ fem::ImportedProperty NastranProperties::convert_solid(const NastranCard& card) 
   for (const int field : {3, 5}) {
     if (card.blank(field) || card.text(field) == "0") continue;
     notes_->add(
-        "PSOLID: the integration scheme (IN, ISOP) is left out; elements use that which "
-        "the model file gives",
+        "PSOLID: the integration scheme (IN, ISOP) is left out; elements use the scheme given in "
+        "the model file",
         place);
   }
   return out;

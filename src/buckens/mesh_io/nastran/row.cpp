@@ -132,8 +132,8 @@ std::string_view take_mark(const NastranLine& line, const NastranRow& row, Field
   for (std::size_t i = place; i < fields.size(); ++i) {
     if (!is_mark(fields[i])) continue;
     throw InputError({line.file->name, line.number, 1},
-                     fmt::format("more than ten fields in one line; {} is too much. Break the card "
-                                 "into continuation lines",
+                     fmt::format("more than ten fields in one line; {} does not fit. Break the "
+                                 "card into continuation lines",
                                  quoted_excerpt(fields[i])));
   }
   return mark;

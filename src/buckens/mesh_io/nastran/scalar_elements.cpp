@@ -211,8 +211,8 @@ int ScalarBuilder::arm(int node, const Vector3d& place, const NastranCard& card)
   link.line = card.line;
   mesh_.rigid_links.push_back(std::move(link));
   notes_.add(card.name +
-                 ": between nodes beside its line it is placed midway, with rigid arms, so "
-                 "that it exerts no moment on the body as a whole",
+                 ": between nodes off its line it is placed midway, with rigid arms, so that it "
+                 "exerts no moment on the body as a whole",
              {card.file, card.line});
   return added;
 }
@@ -223,11 +223,11 @@ void ScalarBuilder::add_between(const Terminal& a, const Terminal& b, double k,
   const bool is_turning = a.component >= 3;
   if (is_turning != (b.component >= 3) || (direction(b) - along).norm() > kRounding) {
     refuse(card,
-           fmt::format("a spring between component {} of GRID {} and component {} of GRID {} "
-                       "would push the body as a whole; inside a body both must be one "
-                       "direction",
-                       a.component + 1, coordinates_.node_ids()[static_cast<std::size_t>(a.node)],
-                       b.component + 1, coordinates_.node_ids()[static_cast<std::size_t>(b.node)]));
+           fmt::format(
+               "a spring between component {} of GRID {} and component {} of GRID {} would exert a "
+               "net force on the body; inside a body both must have the same direction",
+               a.component + 1, coordinates_.node_ids()[static_cast<std::size_t>(a.node)],
+               b.component + 1, coordinates_.node_ids()[static_cast<std::size_t>(b.node)]));
   }
   fem::ImportedSpring spring;
   spring.nodes = {a.node, b.node};
@@ -250,9 +250,10 @@ void ScalarBuilder::add_mass(const NastranCard& card) {
   const std::array<Terminal, 2> ends = read_ends(card);
   for (const Terminal& end : ends) {
     if (!end.is_point()) continue;
-    refuse(card, fmt::format("scalar point {} has a mass that lies nowhere in space; put a GRID "
-                             "with CONM2 in its place",
-                             end.point));
+    refuse(card,
+           fmt::format(
+               "scalar point {} has a mass but no position in space; use a GRID with CONM2 instead",
+               end.point));
   }
   if (ends[0].node >= 0 && ends[1].node >= 0) {
     refuse(card, "masses that couple two components are not supported");
@@ -270,7 +271,7 @@ void ScalarBuilder::add_masses() {
     const double least = std::min({m[0], m[1], m[2]}), most = std::max({m[0], m[1], m[2]});
     if (most - least > kRounding * most) {
       refuse(card, fmt::format("the masses at GRID {} in its three directions are {:g}, {:g} and "
-                               "{:g}; a body weighs the same in all directions: use CONM2",
+                               "{:g}; a body has the same mass in all directions: use CONM2",
                                coordinates_.node_ids()[static_cast<std::size_t>(node)], m[0], m[1],
                                m[2]));
     }

@@ -19,8 +19,8 @@ namespace {
 constexpr double kShearRigid = 1e6;
 
 constexpr const char* kNeutralAxisNote =
-    "beams whose neutral axis is not at the shear centre lie in the neutral axis; torsion is about "
-    "it, too";
+    "beams whose neutral axis is not at the shear centre are placed on the neutral axis, about "
+    "which they also twist";
 
 /// A, I1, I2, I12, J and NSM in the axes of Nastran.
 struct Constants {
@@ -245,7 +245,8 @@ void set_shape(const NastranCard& card, const std::string& type, const std::vect
     set_tube(card, dim[0], dim[0] - dim[1], out);
   } else {
     const NastranShapeConstants c = nastran_shape(type, dim);
-    if (!(c.A > 0)) card.fail(fmt::format("the plates of the section {} do not fit", type));
+    if (!(c.A > 0))
+      card.fail(fmt::format("the plates of the section {} do not fit together", type));
     set_general(card, {c.A, c.I1, c.I2, c.I12, c.J, 0.0}, c.K1, c.K2, c.corners, out);
     if (card.name != "PBEAML" || (c.y == 0.0 && c.z == 0.0)) return;
     out.offset = {c.y, c.z};

@@ -80,11 +80,10 @@ NastranProperties::Shell NastranProperties::convert_pshell(const NastranCard& ca
     notes_->add("PSHELL: MID2 is blank (no bending stiffness); taken as a full shell of MID1",
                 place);
   } else if (card.integer(3) == -1) {
-    card.fail(3,
-              fmt::format("MID2 = -1: in plane strain the element is a slice of something long and "
-                          "no part of a body in space; write MID2 = {} for a shell of this "
-                          "thickness, or model what is meant by solids",
-                          material));
+    card.fail(3, fmt::format("MID2 = -1: in plane strain the element is a slice of a long body and "
+                             "cannot be part of a three-dimensional one; write MID2 = {} for a "
+                             "shell of this thickness, or model the part with solids",
+                             material));
   } else if (card.id(3) != material) {
     notes_->add("PSHELL: MID2 differs from MID1; MID1 is used for bending, too", place);
   }
@@ -95,8 +94,10 @@ NastranProperties::Shell NastranProperties::convert_pshell(const NastranCard& ca
                               card.text(10)));
   }
   if (differs(card.real(4, 1.0), 1.0)) {
-    notes_->add("PSHELL: 12I/T**3 other than 1 is left out; bending is that of a full section",
-                place);
+    notes_->add(
+        "PSHELL: 12I/T**3 other than 1 is left out; the bending stiffness is that of a solid "
+        "section",
+        place);
   }
   if (std::abs(card.real(6, 0.833333) - 0.833333) > 1e-4) {
     notes_->add("PSHELL: TS/T other than 5/6 is left out", place);
@@ -219,10 +220,11 @@ double NastranProperties::thickness_of(const NastranElement& element, const Shel
   if (!(mean > 0.0)) fail("the thickness must be greater than zero");
   const auto [least, most] = std::minmax_element(corners.begin(), corners.end());
   if (*most - *least > kAlike * mean) {
-    notes_->add(fmt::format("{}: thicknesses T1, T2, ... that differ by more than 1 % are taken as "
-                            "their mean over the area: mass is right, bending a little too soft",
-                            name_of(element.kind)),
-                element.place);
+    notes_->add(
+        fmt::format("{}: thicknesses T1, T2, ... that differ by more than 1 % are taken as their "
+                    "mean over the area: the mass is exact, the bending stiffness slightly too low",
+                    name_of(element.kind)),
+        element.place);
   }
   return mean;
 }
@@ -244,11 +246,11 @@ NastranProperties::Direction NastranProperties::shell_direction(
   const Vector3d flat = system.col(0) - system.col(0).dot(n) * n;
   if (n.norm() > 0 && !(flat.norm() > kAlongNormal)) {
     if (!shell.is_isotropic) {
-      throw InputError(element.place.where(),
-                       fmt::format("{} {}: the x axis of MCID {}, from which the material's "
-                                   "directions are counted, is along its normal; give another "
-                                   "system, or THETA",
-                                   name_of(element.kind), element.id, details.system));
+      throw InputError(
+          element.place.where(),
+          fmt::format("{} {}: the x axis of MCID {}, from which the material directions are "
+                      "measured, is parallel to its normal; give another system, or THETA",
+                      name_of(element.kind), element.id, details.system));
     }
     notes_->add(
         fmt::format("{}: MCID along the normal is left out, which changes nothing since all "

@@ -133,9 +133,10 @@ void NastranSource::include(const NastranLine& line) {
   if (keys_.empty()) keys_.push_back(key_of(files_.front().name));
   for (const Open& open : open_) {
     if (key_of(open.file->name) != key) continue;
-    throw InputError(where, fmt::format("INCLUDE {}: the file is being read already; files that "
-                                        "include each other make a circle",
-                                        quoted_excerpt(argument)));
+    throw InputError(
+        where,
+        fmt::format("INCLUDE {}: the file is already being read; files must not include each other",
+                    quoted_excerpt(argument)));
   }
   if (std::find(keys_.begin(), keys_.end(), key) != keys_.end()) {
     throw InputError(
@@ -153,7 +154,7 @@ void NastranSource::include(const NastranLine& line) {
     throw IoError(where, fmt::format("INCLUDE: {}", error.what()));
   }
   total_size_ += text.size();
-  if (total_size_ > kMostText) throw InputError(where, "INCLUDE: the files are too large together");
+  if (total_size_ > kMostText) throw InputError(where, "INCLUDE: the files are too large in total");
   files_.push_back({path.string(), std::move(text)});
   keys_.push_back(key);
   open_.push_back({&files_.back(), 0, 0});

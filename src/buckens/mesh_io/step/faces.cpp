@@ -145,7 +145,7 @@ class FaceSelection {
     throw InputError(
         spec.where,
         colors.empty()
-            ? "no face of the part has a colour of its own; choose faces by numbers or place"
+            ? "no face of the part has a colour; choose faces by numbers or place"
             : fmt::format("no face of the part has the colour [{}, {}, {}]; there are {}",
                           spec.rgb[0], spec.rgb[1], spec.rgb[2], fmt::join(colors, ", ")));
   }

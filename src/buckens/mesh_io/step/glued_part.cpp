@@ -20,8 +20,8 @@ constexpr const char kModel[] = "part";
 std::string lost(const GluedShapes& shapes, const char* what) {
   if (shapes.lost == 0) return {};
   return fmt::format(
-      "note {} of {} faces are lost where solids cut them; choose these faces by "
-      "numbers or place\n",
+      "note {} of {} faces were lost where solids cut them; choose these faces by numbers or "
+      "place\n",
       what, shapes.lost);
 }
 
@@ -64,8 +64,8 @@ void GluedPart::leave_out() {
   gmsh_.remove(others);
   faces_ += fmt::format(
       "note solids that overlap larger ones and cannot be meshed with them were left out: {}, "
-      "{:.2g} % of the volume. This body has not their mass: give it as `masses`, or make bodies "
-      "of them by `solid`\n",
+      "{:.2g} % of the volume. This body lacks their mass: give it as `masses`, or make them "
+      "separate bodies by `solid`\n",
       fmt::join(names, ", "), 100 * left_out / all);
 }
 
@@ -81,8 +81,8 @@ void GluedPart::tell_overlaps(const GluedShapes& shapes) {
   for (const std::size_t place : smaller_) smaller += shapes.volumes[place];
   smaller_share_ = smaller / all;
   faces_ += fmt::format(
-      "note solids overlap {}: what they have in common is counted once and is a solid of its "
-      "own, named after one of them or volume_<number>\n",
+      "note solids overlap {}: their common volume is counted once and becomes a separate solid, "
+      "named after one of them or volume_<number>\n",
       overlap_);
 }
 

@@ -153,9 +153,8 @@ void compare_volumes(fem::ImportedMesh& mesh, double of_solids, int order) {
   const double least = order == 2 ? kLeastCurved : kLeastFlat;
   if (volume > least * of_solids && volume < kMostVolume * of_solids) return;
   mesh.notes.push_back(
-      {fmt::format("the elements fill {:.4g} m^3, but the solids of the file "
-                   "{:.4g} m^3: too large elements, or a wrong surface; try a "
-                   "smaller size",
+      {fmt::format("the elements fill {:.4g} m^3, but the solids of the file {:.4g} m^3: the "
+                   "elements are too large, or the surface is wrong; try a smaller size",
                    volume, of_solids)});
 }
 

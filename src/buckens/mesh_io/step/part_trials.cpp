@@ -32,12 +32,11 @@ std::string PartTrials::run() {
   if (!lines) lines = try_all(step_trials(), {true, is_without});
   if (!lines && is_open_) lines = sew();
   if (lines) return *lines;
-  refuse(
-      fmt::format("{}. {} other ways were tried, smaller elements among them. Look at this "
-                  "place in the CAD program: faces that touch or cut each other, slivers; or "
-                  "try another size{}",
-                  first_, count_ - 1,
-                  task_.request.solid.empty() ? ", or one solid of several by `solid`" : ""));
+  refuse(fmt::format(
+      "{}. {} other methods were tried, including smaller elements. Check this location in the CAD "
+      "program for slivers and for faces that touch or cut each other, or try another size{}",
+      first_, count_ - 1,
+      task_.request.solid.empty() ? ", or one solid of several by `solid`" : ""));
 }
 
 void PartTrials::refuse(std::string reason) const {
@@ -82,7 +81,7 @@ std::optional<std::string> PartTrials::try_all(const std::vector<StepTrial>& tri
     const StepTrial& trial = wanted.trials[one.trial];
     if (*trial.what == '\0' || trial.tolerance > 0) return one.lines;
     return one.lines +
-           fmt::format("note meshed {}, for the usual way failed: {}\n", trial.what, first_);
+           fmt::format("note meshed {}, since the usual method failed: {}\n", trial.what, first_);
   }
   return std::nullopt;
 }
@@ -106,14 +105,13 @@ void PartTrials::take_failure(const TrialOutcome& one) {
 void PartTrials::refuse_slow() const {
   if (progress_.being_glued() > 0) {
     refuse(fmt::format(
-        "its {} solids were not glued where they touch within {} s of computing, whatever the "
+        "its {} solids could not be glued where they touch within {} s of computing, whatever the "
         "size; choose one of them by `solid`, or join them in the CAD program",
         progress_.being_glued(), kSecondsToRead));
   }
   refuse(
-      fmt::format("it was not read within {} s of computing, whatever its size; make the "
-                  "part simpler in the CAD program: leave out threads, letters and "
-                  "patterns of many holes",
+      fmt::format("it could not be read within {} s of computing, whatever the size; simplify the "
+                  "part in the CAD program: leave out threads, letters and patterns of many holes",
                   kSecondsToRead));
 }
 

@@ -27,7 +27,7 @@ constexpr int kFillPoints = 3;
 
 constexpr const char* kNoSmoothFace = " folds at an edge, and a smooth one through";
 constexpr const char* kFoldRemedy =
-    ". Delete this face in the CAD program and fill or loft its edges anew";
+    ". Delete this face in the CAD program and rebuild it from its edges by a fill or loft";
 
 using FacePoints = std::map<int, std::vector<std::array<double, 3>>>;
 using Shells = std::vector<std::vector<int>>;
@@ -159,8 +159,8 @@ std::string smooth_folded_faces(GmshLibrary& gmsh, const std::vector<int>& faces
   const char* const through = bulges ? "edges and some of its points" : "edges";
   if (faces.size() == 1) {
     return fmt::format(
-        "note the surface of face {} folds at an edge: a smooth one through the same {} was put in "
-        "its place\n",
+        "note the surface of face {} folds at an edge and was replaced by a smooth one through the "
+        "same {}\n",
         faces[0], through);
   }
   return fmt::format(

@@ -278,9 +278,8 @@ std::string missing_entities(const std::string& step) {
   const auto lines =
       std::count(step.begin(), step.begin() + static_cast<std::ptrdiff_t>(place), '\n');
   return fmt::format(
-      "entities are missing in the file ({} references to such, the first to #{} in line {}): it "
-      "was "
-      "cut off or damaged; export it again",
+      "entities are missing from the file ({} references to them, the first to #{} in line {}): it "
+      "is truncated or damaged; export it again",
       used.size(), number, lines + 1);
 }
 

@@ -168,9 +168,8 @@ class Trial {
       return found == bounds.end() ? 1e22 : found->second;
     };
     const std::string note = fmt::format(
-        "note elements of down to {:.3g} mm in place of {:.3g} mm follow walls of down to {:.2g} "
-        "mm "
-        "({} faces), which flat ones would make too stiff\n",
+        "note elements down to {:.3g} mm instead of {:.3g} mm resolve walls down to {:.2g} mm ({} "
+        "faces), which flat elements would make too stiff\n",
         least / metre_ * 1e3, size * 1e3, wall / metre_ * 1e3, sizes.size());
     const auto work = [&] {
       gmsh_.clear_mesh();
@@ -214,7 +213,7 @@ class Trial {
         gmsh_.entities(3).empty() ? leave_out_walls(tolerance) : std::string();
     return fmt::format(
                "note {}: {} faces became {}, gaps of up to {:.2g} mm were closed; faces are "
-               "numbered anew and have neither names nor colours\n",
+               "renumbered and have neither names nor colours\n",
                was_open ? "the surface was not closed and was sewn together"
                         : "the surface was mended",
                before, gmsh_.entities(2).size(), tolerance / metre_ * 1e3) +
@@ -247,9 +246,9 @@ class Trial {
     const double wall = 2 * part_.volume / part_.area;
     if (kThin * wall > size) return {};
     return fmt::format(
-        "note walls are about {:.2g} mm thick, a {:.0f}th of the size of the elements: these are "
-        "flat, vibrations come out several per cent too high and stresses are rough; give a "
-        "smaller size, or mesh the part with shells\n",
+        "note walls are about {:.2g} mm thick, a {:.0f}th of the element size: the elements are "
+        "flat, natural frequencies come out several per cent too high and stresses are inaccurate; "
+        "give a smaller size, or mesh the part with shells\n",
         wall * 1e3, size / wall);
   }
 
@@ -316,9 +315,9 @@ class Trial {
     if (!places.empty()) out += fmt::format("; {}", fmt::join(places, ", "));
     if (!glued_.overlap().empty()) {
       out += fmt::format(
-          ". Solids overlap {}: where they are cut, slivers remain. Leave out in the CAD program "
-          "what is screwed or pressed into others, such as drawn threads, or make a body of each "
-          "solid by `solid` and join them",
+          ". Solids overlap {}: slivers remain where they are cut. In the CAD program, leave out "
+          "what is screwed or pressed into other parts, such as modelled threads, or make each "
+          "solid a separate body by `solid` and join the bodies",
           glued_.overlap());
     }
     return out;

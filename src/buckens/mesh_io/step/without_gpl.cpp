@@ -11,8 +11,8 @@ std::vector<TrialOutcome> try_in_one_unit(const StepTask&, const UnitTrials&,
   TrialOutcome out;
   out.lines =
       "error STEP files are meshed by the library of Gmsh, which is under the GPL, and this "
-      "program was built without it (BUCKENS_GPL=OFF). Mesh the part by another program and "
-      "read its mesh (`mesh: {file: …}`), or build with BUCKENS_GPL=ON";
+      "program was built without it (BUCKENS_GPL=OFF). Mesh the part with another program and read "
+      "its mesh (`mesh: {file: …}`), or build with BUCKENS_GPL=ON";
   return {out};
 }
 

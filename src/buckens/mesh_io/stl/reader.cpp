@@ -77,7 +77,7 @@ spatial::TriangleList read_binary_stl(const std::string& bytes, const std::strin
       if (corners[c].allFinite()) continue;
       throw InputError(
           {name, 0, 0},
-          fmt::format("a corner of its triangle {} is no number; export it again", k + 1));
+          fmt::format("a corner of its triangle {} is not a number; export it again", k + 1));
     }
     add_triangle(corners, out);
   }
@@ -166,8 +166,8 @@ spatial::TriangleList read_stl_bytes(const std::string& bytes, const std::string
   } else {
     throw InputError(
         {name, 0, 0},
-        fmt::format("it is no STL file, or cut off: it says {} triangles, for which "
-                    "it had {} bytes, but it has {}; export it again",
+        fmt::format("it is not an STL file, or it is truncated: {} triangles are announced, which "
+                    "take {} bytes, but it has {}; export it again",
                     stated_count(bytes),
                     kStlStart + kStlTriangle * std::size_t{stated_count(bytes)}, bytes.size()));
   }

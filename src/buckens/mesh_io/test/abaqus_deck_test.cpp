@@ -418,7 +418,7 @@ TEST(AbaqusBeams, OffsetsPutThemBesideTheirNodes) {
     EXPECT_EQ(mesh.rigid_links.at(k).reference, static_cast<int>(k));
     EXPECT_THAT(mesh.rigid_links[k].nodes, ElementsAre(3 + static_cast<int>(k)));
   }
-  EXPECT_THAT(note(mesh, "OFFSET1").text, HasSubstr("nodes of their own"));
+  EXPECT_THAT(note(mesh, "OFFSET1").text, HasSubstr("additional nodes on rigid links"));
 }
 
 TEST(AbaqusNotes, WhatChangesHowPartsHoldTogetherIsRefusedOrSkipped) {
@@ -437,7 +437,7 @@ TEST(AbaqusNotes, WhatChangesHowPartsHoldTogetherIsRefusedOrSkipped) {
   EXPECT_TRUE(skipped[1].is_doubtful);
   EXPECT_FALSE(skipped[0].is_doubtful);
   EXPECT_EQ(skipped[1].line, 8);
-  EXPECT_EQ(note(mesh, "normals behind the coordinates").line, 2);
+  EXPECT_EQ(note(mesh, "normals after the coordinates").line, 2);
 }
 
 TEST(AbaqusConstraints, LinksKeepTheDistanceOfTheirNodes) {

@@ -94,7 +94,7 @@ TEST(NastranMalformed, what_is_refused_says_why) {
   expect_words(refusal(kTetra + "PSHELL,2,1,.1,1,,1,,\n,,,7\nCTRIA3,2,2,1,2,3\n"),
                {"deck.bdf:", "MID4 = 7", "PCOMP", "leave MID4 blank"});
   expect_words(refusal(kTetra + "PBAR,2,1,1.,1.,1.,1.\nCBAR,2,2,1,2,1.,0.,0.\n"),
-               {"orientation vector is along the beam"});
+               {"orientation vector is parallel to the beam"});
   expect_words(refusal(kTetra + "PCOMP,2,,,,,,,MEM\n,1,1.\nCTRIA3,2,2,1,2,3\n"), {"LAM = MEM"});
   expect_words(refusal(kTetra + "RBAR,2,1,2,123,4\n"),
                {"4 components are independent", "six in all"});
@@ -103,7 +103,8 @@ TEST(NastranMalformed, what_is_refused_says_why) {
   expect_words(refusal(kTetra + "CELAS2,9,1.,1,1,2,2\n"),
                {"component 1 of GRID 1", "component 2 of GRID 2", "skip: [CELAS2]"});
   expect_words(refusal(kTetra + "CMASS2,9,1.,1,1\n"), {"GRID 1", "1, 0 and 0", "use CONM2"});
-  expect_words(refusal(kTetra + "SPOINT,9\nCMASS2,9,1.,9,0\n"), {"scalar point 9", "nowhere"});
+  expect_words(refusal(kTetra + "SPOINT,9\nCMASS2,9,1.,9,0\n"),
+               {"scalar point 9", "no position in space"});
   expect_words(refusal(kTetra + "CONM1,9,1,,2.,,1.\n"), {"CONM1 9", "not that of a rigid body"});
   expect_words(refusal(kTetra + "=(2000000),*1\n"), {"deck.bdf:8:1", "more than 1000000"});
   expect_words(refusal("=,1\n"), {"deck.bdf:1:1", "there is none"});
@@ -111,7 +112,7 @@ TEST(NastranMalformed, what_is_refused_says_why) {
                {"deck.bdf:11:1", "superelement", "skip: [SUPER]"});
   expect_words(refusal(kTetra + "RBE3,2,,1,,1.,123,2,3,4\n"), {"give the components REFC"});
   expect_words(refusal(kTetra + "RBE3,2,,1,123,1.,456,2,3\n,4\n"),
-               {"deck.bdf:8:18", "means of rotations alone"});
+               {"deck.bdf:8:18", "averages of rotations alone"});
   expect_words(refusal(kTetra + "RBE3,2,,1,123,1.,123,2,THRU\n,4\n"),
                {"expected a node, found THRU"});
   expect_words(refusal("CORD2R,7,,0.,0.,0.,0.,0.,1.\n,1.,1.,0.\n" + kTetra +
@@ -164,8 +165,9 @@ TEST(NastranInclude, files_stand_beside_the_deck) {
 TEST(NastranInclude, circles_doubles_and_missing_files_are_refused) {
   expect_words(
       refusal_of_files({{"a.bdf", "GRID,1\nINCLUDE 'b.bdf'\n"}, {"b.bdf", "INCLUDE a.bdf"}}),
-      {"b.bdf:1:1: ", "make a circle"});
-  expect_words(refusal_of_files({{"a.bdf", "INCLUDE 'a.bdf'\n"}}), {"a.bdf:1:1: ", "circle"});
+      {"b.bdf:1:1: ", "must not include each other"});
+  expect_words(refusal_of_files({{"a.bdf", "INCLUDE 'a.bdf'\n"}}),
+               {"a.bdf:1:1: ", "must not include each other"});
   expect_words(
       refusal_of_files({{"a.bdf", "GRID,1\nINCLUDE 'b'\nINCLUDE 'b'\n"}, {"b", "GRID,2\n"}}),
       {"a.bdf:3:1: ", "already been included"});

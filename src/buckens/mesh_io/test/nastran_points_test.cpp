@@ -182,7 +182,8 @@ TEST(NastranPoints, axial_bushes_act_along_their_line) {
   EXPECT_LT((moved - 40 * along * along.transpose()).norm(), 1e-13);
   EXPECT_TRUE(turned.isZero(0.0));
   EXPECT_TRUE(has_note(mesh, "CBUSH1D: those to ground"));
-  test::expect_words(test::refusal(deck + "CBUSH1D,9,5,1,4,7\n"), {"x of CID is across the line"});
+  test::expect_words(test::refusal(deck + "CBUSH1D,9,5,1,4,7\n"),
+                     {"x axis of CID is perpendicular to the line"});
   test::expect_words(test::refusal(deck + "CBUSH1D,9,6,1,4\n"), {"there is no PBUSH1D 6"});
 }
 

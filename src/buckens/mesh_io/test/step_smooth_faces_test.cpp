@@ -92,8 +92,8 @@ std::string replaced_top(const std::string& height) {
 TEST(StepSmoothFaces, a_fold_is_found_and_replaced) {
   EXPECT_EQ(
       replaced_top("40."),
-      "240000 mm3, note the surface of face 1 folds at an edge: a smooth one through the same "
-      "edges was put in its place\n");
+      "240000 mm3, note the surface of face 1 folds at an edge and was replaced by a smooth one "
+      "through the same edges\n");
 }
 
 TEST(StepSmoothFaces, a_bulge_is_followed_through_points_of_the_face) {
@@ -107,10 +107,10 @@ TEST(StepSmoothFaces, a_bulge_is_not_cut_off) {
   const std::string told = replaced_top("60.");
   EXPECT_NE(told.find("face 1 around (0.05"), std::string::npos) << told;
   EXPECT_NE(told.find("9 of its points changes the volume by -0.2"), std::string::npos) << told;
-  EXPECT_NE(told.find("fill or loft its edges anew"), std::string::npos) << told;
+  EXPECT_NE(told.find("rebuild it from its edges by a fill or loft"), std::string::npos) << told;
   const std::string far = replaced_top("70.");
   EXPECT_NE(far.find("face 1 around (0.05"), std::string::npos) << far;
-  EXPECT_NE(far.find("fill or loft its edges anew"), std::string::npos) << far;
+  EXPECT_NE(far.find("rebuild it from its edges by a fill or loft"), std::string::npos) << far;
 }
 
 TEST(StepSmoothFaces, nothing_to_replace) {

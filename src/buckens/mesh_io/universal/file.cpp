@@ -243,10 +243,11 @@ void UniversalReader::read_groups() {
 void UniversalReader::read_units() {
   text_.next_line("the units");
   const double length = text_.number("the unit of length");
-  mesh_.notes.push_back({fmt::format("the file says that 1 m is {:g} of its units of length; give "
-                                     "`length-unit` accordingly",
-                                     length),
-                         text_.line(), 1});
+  mesh_.notes.push_back(
+      {fmt::format(
+           "the file states that 1 m is {:g} of its length units; set `length-unit` accordingly",
+           length),
+       text_.line(), 1});
 }
 
 /// Measured functions as bytes: 58b.
