@@ -190,7 +190,7 @@ def test_a_step_file_is_told_by_faces(buckens):
     assert linear["kinds"][0]["kind"] == "tet4"
     assert linear["volume"] == pytest.approx(told["volume"], rel=0.02)
     buckens("mesh-info", ROD / "rod.step", "--size", "5 kg").must(2, "--size", "5 mm")
-    buckens("mesh-info", ROD / "rod.step", "--size", "5 mm", "--length-unit", "mm").must(2, "units itself")
+    buckens("mesh-info", ROD / "rod.step", "--size", "5 mm", "--length-unit", "mm").must(2, "states its units")
 
 
 def sensors(path):

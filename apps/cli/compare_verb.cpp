@@ -37,8 +37,7 @@ run_store::RunComparison compared(const CompareArguments& arguments) {
   }
   if (out.quantities.empty()) {
     throw InputError(fmt::format(
-        "{} and {} have no {} of one name and shape in common, so there is nothing to "
-        "compare; {}",
+        "{} and {} have no {} with the same name and shape, so there is nothing to compare; {}",
         arguments.first, arguments.second, arguments.sensors_only ? "sensor" : "quantity",
         arguments.sensors_only ? "leave `--sensors` out, or record the same sensors"
                                : "compare runs of one model"));

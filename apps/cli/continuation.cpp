@@ -30,11 +30,11 @@ void require_run_to_continue(const fs::path& directory) {
                     directory.string(), run_store::kSummaryName));
   }
   if (!fs::is_regular_file(directory / run_store::kCheckpointName, error)) {
-    throw IoError(fmt::format(
-        "{}: there is no checkpoint to go on from: the run ended before its first one, or the "
-        "model says `checkpoint: off`. Run the model from the start; simulation.checkpoint is the "
-        "time between checkpoints.",
-        directory.string()));
+    throw IoError(
+        fmt::format("{}: there is no checkpoint to continue from: the run ended before its first "
+                    "one, or the model says `checkpoint: off`. Run the model from the start; "
+                    "simulation.checkpoint is the time between checkpoints.",
+                    directory.string()));
   }
 }
 

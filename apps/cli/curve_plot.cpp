@@ -294,8 +294,7 @@ void draw_figure(const PlotFigure& figure, const std::filesystem::path& path) {
   const std::string ending = path.extension().string();
   if (ending != ".svg" && ending != ".png" && ending != ".pdf") {
     throw InputError(
-        fmt::format("{}: the ending says which kind of picture it will be; use .svg, "
-                    ".png or .pdf",
+        fmt::format("{}: the file extension determines the picture format; use .svg, .png or .pdf",
                     path.string()));
   }
   const double height = figure.height > 0.0 ? figure.height

@@ -53,7 +53,7 @@ std::string error_text(const results::ErrorStatement& errors) {
     out += fmt::format("  {}: {}, {} steps, {:.3g} s\n", source.name, source.what, source.steps,
                        source.seconds);
   }
-  if (!errors.is_complete) out += "  INCOMPLETE: interrupted before all runs were made\n";
+  if (!errors.is_complete) out += "  INCOMPLETE: interrupted before all runs were finished\n";
   for (const std::string& text : errors.notes) out += "  not in it: " + text + '\n';
   return out;
 }

@@ -188,7 +188,7 @@ struct LivePage::Server {
       answer_page(response);
     });
     port = http.bind_to_any_port(kHost);
-    if (port <= 0) throw IoError("--live: the system grants no port on 127.0.0.1");
+    if (port <= 0) throw IoError("--live: no port is available on 127.0.0.1");
     address = fmt::format("http://{}:{}{}", kHost, port, root);
   }
 };

@@ -59,7 +59,7 @@ fem::MassUnit MeshArguments::unit_of_mass() const {
 fem::ImportedMesh MeshArguments::read() const {
   if (!is_step()) return mesh_io::read_mesh_file(file, {{}, skip, only});
   if (!length_unit.empty()) {
-    throw InputError({file, 0, 0}, "a STEP file says its units itself; leave --length-unit out");
+    throw InputError({file, 0, 0}, "a STEP file states its units; leave out --length-unit");
   }
   mesh_io::StepRequest request{{}, order, solid};
   if (!size.empty()) request.size = length("--size", size);

@@ -73,8 +73,8 @@ std::vector<std::string> complaints(const MeshReport& report) {
   }
   if (!report.inverted_at_nodes.empty()) {
     out.push_back(fmt::format(
-        "{} inverted or flat at a corner, though not where {} integrated: {}; a body is made of "
-        "{}, but stresses near such corners mean little",
+        "{} inverted or flat at a corner, though not where {} integrated: {}; a body can be made "
+        "of {}, but stresses near such corners are unreliable",
         report.inverted_at_nodes.size() == 1
             ? "an element is"
             : fmt::format("{} elements are", report.inverted_at_nodes.size()),
@@ -83,21 +83,20 @@ std::vector<std::string> complaints(const MeshReport& report) {
   }
   if (report.worst_aspect > kSliver && report.inverted.empty()) {
     out.push_back(fmt::format(
-        "element {} at {} m is a sliver: its aspect ratio is {:.3g}, and stresses there "
-        "mean little; small faces and edges of the geometry make such elements",
+        "element {} at {} m is a sliver: its aspect ratio is {:.3g}, and stresses there are "
+        "unreliable; such elements come from small faces and edges of the geometry",
         report.worst_element, vector_text(report.worst_centre), report.worst_aspect));
   }
   if (!report.duplicate_nodes.empty()) {
     std::vector<std::string> pairs;
     for (const auto& [a, b] : report.duplicate_nodes) pairs.push_back(fmt::format("{} = {}", a, b));
     out.push_back(
-        fmt::format("nodes lie at the same place: {}; if the parts belong together, merge "
-                    "them in the program that made the mesh",
+        fmt::format("nodes coincide: {}; if the parts belong together, merge them in the program "
+                    "that made the mesh",
                     some_of(pairs)));
   }
   if (report.pieces > 1) {
-    out.push_back(
-        fmt::format("the mesh falls into {} pieces that nothing connects", report.pieces));
+    out.push_back(fmt::format("the mesh consists of {} disconnected pieces", report.pieces));
   }
   return out;
 }

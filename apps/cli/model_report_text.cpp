@@ -72,8 +72,8 @@ std::string reductions_text(const ModelReport& report) {
     text += fmt::format(" and {}", counted(r.static_shapes, "static shape"));
     if (r.static_share > 0) {
       text += fmt::format(
-          "; without static correction the answer to slow joint forces lacks up "
-          "to {:.2g} %",
+          "; without static correction the response to slow joint forces is too small by up to "
+          "{:.2g} %",
           100.0 * r.static_share);
     }
     entries.emplace_back(body.name, text);

@@ -60,8 +60,8 @@ std::unique_ptr<model::BuiltModel> read_model_to_run(const RunArguments& argumen
       model_file::read_model_file(arguments.model, arguments.overrides);
   if (!description.simulation) {
     throw InputError(description.where,
-                     "there is no `simulation:`, so it is not known how far to simulate. Add for "
-                     "instance `simulation: {duration: 1 s, step: 1 ms}`, or use `buckens check`.");
+                     "there is no `simulation:`, so the duration is unknown. Add, for instance, "
+                     "`simulation: {duration: 1 s, step: 1 ms}`, or use `buckens check`.");
   }
   return build(std::move(description));
 }
@@ -110,10 +110,10 @@ void check_continuation(const RunArguments& arguments) {
   const auto refuse = [](const char* option, const char* why) {
     throw InputError(fmt::format("--continue and {}: {}; leave out one of them", option, why));
   };
-  if (!arguments.out.empty()) refuse("-o", "the results go on in the directory of the run");
+  if (!arguments.out.empty()) refuse("-o", "the results continue in the directory of the run");
   if (arguments.error) refuse("--error", "an error statement needs the whole run");
   if (!arguments.state.start_from.empty()) {
-    refuse("--start-from", "a run goes on from its own checkpoint");
+    refuse("--start-from", "a run continues from its own checkpoint");
   }
 }
 

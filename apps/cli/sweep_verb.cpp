@@ -46,8 +46,8 @@ struct SweepArguments {
 sweep::SweepTable variants_of(const SweepArguments& arguments) {
   if (arguments.table.empty() == arguments.ranges.empty()) {
     throw InputError({},
-                     "a sweep needs its variants: either a table in CSV, `buckens sweep MODEL "
-                     "TABLE`, or ranges, `--vary PATH=[VALUE, ...]`, and not both");
+                     "a sweep needs variants: either a CSV table, `buckens sweep MODEL TABLE`, or "
+                     "ranges, `--vary PATH=[VALUE, ...]`, but not both");
   }
   return arguments.table.empty() ? sweep::combinations(arguments.ranges)
                                  : sweep::read_sweep_table(arguments.table);

@@ -54,8 +54,8 @@ std::vector<Part> read_parts(const fs::path& out) {
   }
   if (files.empty()) {
     throw InputError({out.string(), 0, 0},
-                     "there are no parts of a sweep here to be merged; run `buckens sweep MODEL "
-                     "TABLE -o OUT --shard I/N` for every I from 1 to N first");
+                     "there are no parts of a sweep to merge here; run `buckens sweep MODEL TABLE "
+                     "-o OUT --shard I/N` for every I from 1 to N first");
   }
   std::sort(files.begin(), files.end());
   std::vector<Part> parts;
@@ -79,10 +79,9 @@ void check_parts(const fs::path& out, const std::vector<Part>& parts) {
     const SourceLocation where{part.file.string(), 0, 0};
     const std::string other = first.file.filename().string();
     if (part.shard.count != first.shard.count) {
-      throw InputError(where,
-                       fmt::format("this part is one of {} shards, {} is one of {}; remove the "
-                                   "files of the division that is not wanted",
-                                   part.shard.count, other, first.shard.count));
+      throw InputError(where, fmt::format("this part is one of {} shards, {} is one of {}; remove "
+                                          "the files of the unwanted division",
+                                          part.shard.count, other, first.shard.count));
     }
     if (part.study != first.study) {
       throw InputError(where, fmt::format("this part was made with another model or table than {}; "

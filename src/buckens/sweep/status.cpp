@@ -86,11 +86,11 @@ std::vector<Beginning> read_beginnings(const fs::path& out) {
       all, {}, [](const Beginning& one) { return std::pair(one.shard.index, one.shard.count); });
   for (const Beginning& one : all) {
     if (one.shard.count == all.front().shard.count) continue;
-    throw InputError({one.file.string(), 0, 0},
-                     fmt::format("this shard is one of {}, {} is one of {}; remove the files of "
-                                 "the division that is not wanted",
-                                 one.shard.count, all.front().file.filename().string(),
-                                 all.front().shard.count));
+    throw InputError(
+        {one.file.string(), 0, 0},
+        fmt::format(
+            "this shard is one of {}, {} is one of {}; remove the files of the unwanted division",
+            one.shard.count, all.front().file.filename().string(), all.front().shard.count));
   }
   return all;
 }

@@ -44,7 +44,7 @@ void check_name(const std::string& name, const SourceLocation& where) {
   }
   if (is_plain) return;
   throw InputError(where, fmt::format("\"{}\" cannot name a run directory; use letters, digits and "
-                                      "- _ + = . (not in front)",
+                                      "- _ + = . (not as the first character)",
                                       name.substr(0, 60)));
 }
 

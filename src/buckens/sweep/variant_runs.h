@@ -12,8 +12,8 @@ namespace buckens::sweep {
 
 /// Said of a model that cannot be simulated.
 inline constexpr char kNoSimulation[] =
-    "there is no `simulation:`, so it is not known how far to simulate. Add for instance "
-    "`simulation: {duration: 1 s, step: 1 ms}`.";
+    "there is no `simulation:`, so the duration is unknown. Add, for instance, `simulation: "
+    "{duration: 1 s, step: 1 ms}`.";
 
 /// How the run of a variant ended.
 enum class VariantStatus {

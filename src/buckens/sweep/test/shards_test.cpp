@@ -133,7 +133,7 @@ TEST_F(Parts, ThatDoNotBelongTogetherAreRefused) {
   write(2, 3);
   refuses("1/3, 3/3");
   write(1, 4);
-  refuses("remove the files of the division");
+  refuses("remove the files of the unwanted division");
   std::filesystem::remove(folder_ / kPartsName / "1-of-4.json");
   write(1, 3, "another");
   refuses("another model or table");
