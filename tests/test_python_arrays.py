@@ -192,7 +192,7 @@ TETRA = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
     ((TETRA, {"tetra": [[0, 1, 2]]}), r"rows of 4 nodes, found an array of shape \(1, 3\)"),
     ((TETRA, {"tetra": [[0.0, 1, 2, 3]]}), "whole numbers, found dtype float64"),
     ((TETRA, {"tetra": [[1, 2, 3, 4]]}), "found 4; the 4 nodes have the numbers 0 to 3"),
-    ((TETRA, {"tetra": np.empty((0, 4), dtype=int)}), "cells: there is none"),
+    ((TETRA, {"tetra": np.empty((0, 4), dtype=int)}), "cells: none are given"),
     ((TETRA, {"tetra": [[0, 1, 2, 3]]}, {"a b": [1]}), "expected a name of letters.*'a b'"),
     ((TETRA, {"tetra": [[0, 1, 2, 3]]}, {"a": []}), r"node_sets\['a'\]: it is empty"),
     ((TETRA, {"tetra": [[0, 1, 2, 3]]}, {"a": [1]}, {"A": [0]}), "'A' stands for several"),

@@ -268,7 +268,7 @@ def test_workers_elsewhere_are_checked(tmp_path):
         run_task(good._replace(version="9.9.9"), task)
     with pytest.raises(buckens.IoError, match="cannot see the model file /nowhere/model.yaml"):
         run_task(good._replace(model="/nowhere/model.yaml"), task)
-    with pytest.raises(buckens.IoError, match="sees another content"):
+    with pytest.raises(buckens.IoError, match="sees a different version"):
         run_task(good, task)
 
 

@@ -39,7 +39,7 @@ def test_distributions_are_read_with_their_units():
         study.sobol({"L": "10 mm"}, 4)
     with pytest.raises(buckens.InputError, match="low < high"):
         study.grid({"L": "10 mm to 9 mm"})
-    with pytest.raises(buckens.InputError, match="nothing that varies"):
+    with pytest.raises(buckens.InputError, match="nothing varies; give"):
         study.grid({})
 
 
@@ -121,7 +121,7 @@ def test_columns_of_a_table_are_found(tmp_path):
         for column in ("tip.y max", "tip.y [m] max"):
             values = study.results(table, column)
             assert values[0] == 0.5 and np.isnan(values[1])
-    with pytest.raises(buckens.InputError, match="no column 'tip.z max'; there are name, status"):
+    with pytest.raises(buckens.InputError, match="no column 'tip.z max'; the columns are name, status"):
         study.results(tmp_path, "tip.z max")
     with pytest.raises(buckens.InputError, match="does not hold numbers"):
         study.results(tmp_path, "status")

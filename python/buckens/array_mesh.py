@@ -71,7 +71,7 @@ class ArrayMesh:
         self.cells: Dict[str, Numbers] = {}
         for kind, rows in cells.items():
             if kind not in CELLS:
-                raise InputError(f"cells: there is no kind {kind!r}; there are {', '.join(CELLS)}")
+                raise InputError(f"cells: unknown kind {kind!r}; known kinds are {', '.join(CELLS)}")
             table = _numbers(f"cells[{kind!r}]", rows, len(self.nodes), "nodes")
             if table.ndim != 2 or table.shape[1] != CELLS[kind][1]:
                 raise InputError(f"cells[{kind!r}]: expected rows of {CELLS[kind][1]} nodes, found an array "
@@ -79,7 +79,7 @@ class ArrayMesh:
             self.cells[kind] = table
         count = sum(len(rows) for rows in self.cells.values())
         if count == 0:
-            raise InputError("cells: there is none")
+            raise InputError("cells: none are given")
         self.node_sets = {name: _set("node_sets", name, v, len(self.nodes), "nodes")
                           for name, v in node_sets.items()}
         self.cell_sets = {name: _set("cell_sets", name, v, count, "cells")
@@ -88,7 +88,7 @@ class ArrayMesh:
         folded = [name.upper() for name in [*self.node_sets, *self.cell_sets, *self.faces]]
         for name in folded:
             if folded.count(name) > 1:
-                raise InputError(f"the name {name!r} stands for several sets or faces (small and capital "
+                raise InputError(f"the name {name!r} stands for several sets or faces (upper and lower case "
                                  "letters count as the same); names must differ")
         self._sides = dict(self._find_sides()) if self.faces else {}
 

@@ -44,7 +44,7 @@ class LivePage:
                 return address
         out, err = self._process.communicate()
         answer_of(self._process.returncode, text + out, err)
-        raise Error(f"the program has told no address: {text}")
+        raise Error(f"the program reported no address: {text}")
 
     @property
     def is_open(self) -> bool:
@@ -57,7 +57,7 @@ class LivePage:
         Raises
         ------
         IoError
-            If there is none.
+            If no browser can be started.
         """
         if not webbrowser.open(self.address):
             raise IoError(f"{self.address}: no browser could be started; open this address in one")

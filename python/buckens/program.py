@@ -30,7 +30,7 @@ def find_program() -> str:
     Raises
     ------
     IoError
-        If there is none.
+        If the program is not found.
     """
     named = os.environ.get("BUCKENS_PROGRAM")
     if named:
@@ -44,7 +44,7 @@ def find_program() -> str:
     if found:
         return found
     raise errors.IoError(f"the program `buckens` was found neither near {here} nor on PATH; set "
-                         "BUCKENS_PROGRAM to it")
+                         "BUCKENS_PROGRAM to its path")
 
 
 @contextmanager
@@ -116,7 +116,7 @@ def answer_of(code: int, out: str, err: str) -> Dict[str, Any]:
     try:
         answer = json.loads(out)
     except ValueError:
-        raise errors.Error(f"the program ended with code {code}: {err.strip()}") from None
+        raise errors.Error(f"the program exited with code {code}: {err.strip()}") from None
     if isinstance(answer, dict) and "error" in answer and "message" in answer["error"]:
         failure = answer["error"]
         error = _KINDS.get(failure["kind"], errors.Error)(failure["message"])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The mesh of a body in a run, for meshio, PyVista or one's own."""
+"""The mesh of a body in a run, for meshio, PyVista or your own code."""
 
 from __future__ import annotations
 

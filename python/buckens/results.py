@@ -74,7 +74,7 @@ class Results:
     @property
     def energy_account(self) -> Dict[str, Any]:
         """Where the energy came from and went [J]: ``brought_in``, ``lost`` and ``kept``, each by kind and name
-        (``["lost"]["joint-friction"]["pin"]``), and what is ``unexplained``. Empty of runs that keep none."""
+        (``["lost"]["joint-friction"]["pin"]``), and what is ``unexplained``. Empty for runs that keep none."""
         return dict(self.summary.get("energy_account", {}))
 
     @property

@@ -106,7 +106,7 @@ class Simulation:
         if self._core_now is None:
             if self._is_preparing:
                 raise InputError("the simulation is being set up, which is within a step; a force "
-                                 "function has to make do with its arguments")
+                                 "function can use its arguments only")
             self._prepare()
             assert self._core_now is not None
         return self._core_now
@@ -192,7 +192,7 @@ class Simulation:
         """Decorator: a force on a marker by a function, as :meth:`buckens.Model.force`, of this
         simulation only.
 
-        To be given before anything else is asked of the simulation, which is then set up again; for
+        Must be added before anything else is requested from the simulation, which is then set up again; for
         large models :meth:`buckens.Model.force` saves the time.
         """
 
@@ -210,7 +210,7 @@ class Simulation:
         """Decorator: the value of a signal by a function, as :meth:`buckens.Model.signal`, of this
         simulation only.
 
-        To be given before anything else is asked of the simulation, as :meth:`force`.
+        Must be added before anything else is requested from the simulation, as :meth:`force`.
         """
 
         def add(function: SignalFunction) -> SignalFunction:
@@ -228,7 +228,7 @@ class Simulation:
                              "taken; add functions first, or to the model")
 
     def set_signal(self, signal: str, value: float) -> None:
-        """Gives a signal with a ``setting`` a value, from now on: what motors and loads that name it
+        """Sets a signal with a ``setting`` to a value from now on, which motors and loads that name it
         follow. The value is part of what :meth:`save` writes.
 
         Parameters
@@ -239,7 +239,7 @@ class Simulation:
         self._core.set_signal(signal, _number(f"signal {signal!r}", value))
 
     def set_load(self, load: str, value: Sequence[float]) -> None:
-        """Gives a force [N] or torque [N m] of the model a value instead of its law, from now on.
+        """Replaces the law of a force [N] or torque [N m] of the model with a value from now on.
 
         Parameters
         ----------

@@ -138,5 +138,5 @@ def _in_one_unit(*quantities: Quantity) -> Tuple[List[float], str]:
 
 def distributions_of(quantities: Dict[str, Any]) -> Dict[str, Distribution]:
     if not quantities:
-        raise InputError("there is nothing that varies; give distributions by path, {\"parameters.L\": \"1 m +- 1 mm\"}")
+        raise InputError("nothing varies; give distributions by path, {\"parameters.L\": \"1 m +- 1 mm\"}")
     return {path: distribution_of(path, given) for path, given in quantities.items()}

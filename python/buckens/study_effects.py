@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a study says: mean and quantiles of results, main effects, Sobol indices, a picture."""
+"""Evaluation of a study: mean and quantiles of results, main effects, Sobol indices, a picture."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def results(sweep: SweepLike, column: str) -> Array:
     names = list(rows[0]) if rows else []
     found = [name for name in names if column in (name, _without_unit(name))]
     if not found:
-        raise InputError(f"{path}: there is no column {column!r}; there are {', '.join(names)}")
+        raise InputError(f"{path}: there is no column {column!r}; the columns are {', '.join(names)}")
     try:
         return np.array([float(row[found[0]] or "nan") for row in rows])
     except ValueError:
@@ -70,7 +70,7 @@ def statistics(values: Any, quantiles: Sequence[float] = (0.05, 0.25, 0.5, 0.75,
 
 
 def main_effects(samples: Samples, values: Any, bins: int = 5) -> Dict[str, Array]:
-    """How the mean of a result goes with each quantity alone.
+    """How the mean of a result depends on each quantity alone.
 
     Returns
     -------
@@ -123,7 +123,7 @@ def sobol_indices(samples: Samples, values: Any, resamples: int = 200, seed: int
     parts = _rows(samples, values).reshape(-1, samples.base)
     parts = parts[:, np.all(np.isfinite(parts), axis=0)]
     if parts.shape[1] < 2:
-        raise InputError("sobol_indices: fewer than two rows of the design ended well in all their variants")
+        raise InputError("sobol_indices: fewer than two rows of the design have results for all their variants")
     first, total = _indices(parts)
     engine = np.random.default_rng(seed)
     drawn = [_indices(parts[:, engine.integers(0, parts.shape[1], parts.shape[1])]) for _ in range(resamples)]

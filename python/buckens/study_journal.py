@@ -127,8 +127,8 @@ class StudyJournal:
         """Keeps a row that its worker could not."""
         self.take(row)
         if self._own is None or not self._own.add([row]):
-            raise OSError(f"{self.folder}: neither the worker nor this process can write the result of a variant; make room "
-                          "on the disk and call again, what is there is kept")
+            raise OSError(f"{self.folder}: neither the worker nor this process can write the result of a variant; free disk "
+                          "space and call again; finished results are kept")
 
     def tidy(self) -> None:
         """One file in place of many, once no worker writes any more."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The best variant: minima of results over ranges of quantities, by way of sweeps."""
+"""The best variant: minima of results over ranges of quantities, found by sweeps."""
 
 from __future__ import annotations
 

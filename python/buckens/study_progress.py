@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How far a study is: over all workers, time to go, what is slow."""
+"""Progress of a study: totals over all workers, remaining time, slowest variants."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _INTERVAL = 2.0  # between lines [s]
 
 
 class Progress(NamedTuple):
-    """How far a study is.
+    """Progress of a study.
 
     Attributes
     ----------
@@ -106,7 +106,7 @@ def clock(seconds: float) -> str:
 
 
 def status(out: PathLike) -> Progress:
-    """How far a study is that runs in another process, or was stopped.
+    """Progress of a study that runs in another process, or was stopped.
 
     Raises
     ------

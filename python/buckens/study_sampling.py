@@ -91,7 +91,7 @@ def sensitivity(quantities: Mapping[str, Any], count: int, seed: int = 0) -> Sam
     distributions = distributions_of(dict(quantities))
     _check_count(count, 2, "count")
     if count & (count - 1):
-        raise InputError(f"sensitivity: expected a power of two as count, found {count}; 64, 128 and 256 are some")
+        raise InputError(f"sensitivity: expected a power of two as count, found {count}; for example 64, 128 or 256")
     size = len(distributions)
     points = _sobol_points(2 * size, count, seed)
     first, second = points[:, :size], points[:, size:]

@@ -100,7 +100,7 @@ def _runner(study: Study, group: int) -> _core.VariantRows:
                       "under this name")
     runner = _core.VariantRows(study.model, study.overrides, study.paths)
     if source_hash(runner.source) != study.source:
-        raise IoError(f"worker {worker_name()} sees another content of {study.model} or of a file that it names than the "
-                      "process that started the study; put these files where all workers see the same")
+        raise IoError(f"worker {worker_name()} sees a different version of {study.model} or of a file that it names than "
+                      "the process that started the study; put these files where all workers see the same ones")
     _here.kept = (study, runner, group)
     return runner

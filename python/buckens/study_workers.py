@@ -96,7 +96,7 @@ class Workers:
     def check(self) -> None:
         """To be called while nothing comes back; raises IoError if nothing will."""
         if self._client is not None and self._client.status == "closed":
-            raise _no_more_work("the connection to the scheduler of Dask is lost")
+            raise _no_more_work("the connection to the Dask scheduler was lost")
         if self._client is not None:
             self._ask_scheduler()
 
@@ -106,7 +106,7 @@ class Workers:
         while self._client is not None and self._client.status != "running":
             self._next_question = 0.0  # it may be another one then
             if self._client.status == "closed" or time.monotonic() > deadline:
-                raise _no_more_work("the connection to the scheduler of Dask is lost")
+                raise _no_more_work("the connection to the Dask scheduler was lost")
             time.sleep(0.1)
         if self._client is not None:
             self._ask_scheduler()

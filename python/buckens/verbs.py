@@ -122,7 +122,7 @@ def sweep(model: ModelLike, table: TableLike, out: PathLike, together: Optional[
     part = None if shard is None else _shard(shard)
     if executor is not None:
         if part is not None:
-            raise InputError(f"shard {part} and an executor: the executor shares the variants out itself; leave "
+            raise InputError(f"shard {part} and an executor: the executor distributes the variants itself; leave "
                              "out one of them")
         return sweep_on(executor, model, table, out, together, set, progress, workers)
     with tempfile.TemporaryDirectory(prefix="buckens-") as folder:

@@ -44,7 +44,7 @@ def _write_map(tree: Mapping[str, Any], indent: str, path: str, lines: List[str]
     for key, value in tree.items():
         place = f"{path}.{key}" if path else str(key)
         if not isinstance(key, str):
-            raise InputError(f"{place}: expected a text as key, found {key!r}")
+            raise InputError(f"{place}: expected a string as key, found {key!r}")
         if value is None:
             continue
         value = _plain(value, place, files)
@@ -86,7 +86,7 @@ def _flow(value: Any, place: str, files: Optional[ModelFiles] = None) -> str:
         parts = []
         for key, part in value.items():
             if not isinstance(key, str):
-                raise InputError(f"{place}.{key}: expected a text as key, found {key!r}")
+                raise InputError(f"{place}.{key}: expected a string as key, found {key!r}")
             if part is not None:
                 parts.append(f"{_scalar_text(key)}: {_flow(part, f'{place}.{key}', files)}")
         return "{" + ", ".join(parts) + "}"
@@ -97,7 +97,7 @@ def _flow(value: Any, place: str, files: Optional[ModelFiles] = None) -> str:
         return text
     if isinstance(value, str):
         return _scalar_text(value)
-    raise InputError(f"{place}: expected a number, a text, a list or a dictionary, found {value!r} "
+    raise InputError(f"{place}: expected a number, a string, a list or a dictionary, found {value!r} "
                      f"of type {type(value).__name__}")
 
 
