@@ -358,7 +358,7 @@ def test_parts_without_an_end_do_not_take_what_follows(buckens, model):
     assert told["mass"] == pytest.approx(2 * 7800) and told["box"][1][0] == pytest.approx(4)
     notes = buckens("mesh-info", "deck.inp").must(0).out
     line = parts[:parts.index("*PART,NAME=Q")].count("\n") + 1
-    assert f"*PART has no *END PART; it is taken to end before *PART in line {line}" in notes and "before *STEP" in notes
+    assert f"*PART has no *END PART; it is assumed to end before *PART in line {line}" in notes and "before *STEP" in notes
     instances = "".join(f"*INSTANCE,NAME=I{k},PART=P\n{x},0,0\n*END INSTANCE\n" for k, x in enumerate((0, 5)))
     model(f"*PART,NAME=P\n{first}{section}*ASSEMBLY,NAME=A\n{instances}*END ASSEMBLY\n" + STEEL)
     told = report(buckens)

@@ -120,7 +120,7 @@ def test_check_reports_the_whole(buckens, tmp_path):
     (BEAM.format(frames=9), ["9 frames for 8 elements", "model.yaml"]),
     (BEAM.format(frames=0), ["must be positive"]),
     (BEAM.format(frames="per-node"), ["is not a number of frames", "per-element"]),
-    (TRUSS.format(n=2, frames=1), ["bars in a row", "per-element"]),
+    (TRUSS.format(n=2, frames=1), ["a chain of bars in one frame", "per-element"]),
     (BEAM.format(frames=2).replace("between: [ground, rod/start]", "between: [rod/end, rod/start]"),
      ["are on the same body"]),
 ], ids=["too-many", "zero", "word", "bars", "itself"])

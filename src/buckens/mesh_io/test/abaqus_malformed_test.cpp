@@ -344,7 +344,7 @@ TEST_F(AbaqusMalformed, ConstraintsThatCannotBe) {
   refuses(turned + "*KINEMATIC\n1, 2\n*ORIENTATION, NAME=O, SYSTEM=SPHERICAL\n0,0,0,0,0,1\n",
           {"deck.inp:14:1", "expected RECTANGULAR or CYLINDRICAL"});
   refuses(turned + "*KINEMATIC\n1, 1\n*ORIENTATION, NAME=O, SYSTEM=CYLINDRICAL\n1,0,0,1,0,0\n",
-          {"a and b are one"});
+          {"a and b coincide"});
   refuses(turned + "*KINEMATIC\n3, 1\n", {"deck.inp:16:1", "precedes the first"});
 }
 

@@ -192,9 +192,9 @@ TEST(NastranMaterials, a_rounded_modulus_is_that_of_beams_alone) {
   EXPECT_EQ(mesh.materials[2].rho, 0.1);
   EXPECT_NE(mesh.materials[1].name, mesh.materials[2].name);
   EXPECT_EQ(mesh.properties.at(2).material, mesh.materials[2].name);
-  EXPECT_FALSE(has_note(mesh, "a G that is not"));
+  EXPECT_FALSE(has_note(mesh, "a G that does not follow"));
   const auto other = read_deck(kTetra + "MAT1,2,1.+7,3.+6,.3\nPSHELL,2,2,1.\nCTRIA3,2,2,1,2,3\n");
-  EXPECT_TRUE(has_note(other, "a G that is not"));
+  EXPECT_TRUE(has_note(other, "a G that does not follow"));
 }
 
 TEST(NastranMaterials, ratios_that_bars_do_not_need) {
