@@ -218,7 +218,7 @@ def broken(tmp_path, name, change):
     ("{stl: {file: good.stl}}, {sphere: 0.1}", ["unit"]),
     ("{stl: {file: inward.stl, unit: 1 m}}, {sphere: 0.1}", ["look inwards", "turn them over"]),
     ("{stl: {file: mixed.stl, unit: 1 m}}, {sphere: 0.1}", ["look to different sides", "repair it"]),
-    ("{stl: {file: cut.stl, unit: 1 m}}, {sphere: 0.1}", ["cut.stl", "cut off", "export it again"]),
+    ("{stl: {file: cut.stl, unit: 1 m}}, {sphere: 0.1}", ["cut.stl", "is truncated", "export it again"]),
     ("{stl: {file: empty.stl, unit: 1 m}}, {sphere: 0.1}", ["no triangles"]),
     ("{stl: {file: word.stl, unit: 1 m}}, {sphere: 0.1}", ["word.stl:4", "expected vertex, found corner"]),
     ("{stl: {file: good.stl, unit: 1 m}}, {socket: 1 m}", ["a mesh and a socket cannot touch", "mesh–sphere"]),

@@ -56,7 +56,7 @@ TEST(Stl, IsReadAsTextAndBinaryAlike) {
 }
 
 TEST(Stl, SaysWhatIsWrongAndWhere) {
-  EXPECT_THAT(message(binary(2, 1, "part")), HasSubstr("it says 2 triangles"));
+  EXPECT_THAT(message(binary(2, 1, "part")), HasSubstr("2 triangles are announced"));
   EXPECT_THAT(message("short"), HasSubstr("too few"));
   EXPECT_THAT(message(binary(0, 0)), HasSubstr("no triangles"));
   std::string text = kText;
