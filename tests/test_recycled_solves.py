@@ -80,4 +80,4 @@ def test_a_resumed_run_goes_on_with_what_was_kept(run, tmp_path, changes, half):
 
 def test_too_many_are_refused(buckens, tmp_path):
     (tmp_path / "model.yaml").write_text(BLOCK.replace("step: 0.1 ms", "step: 0.1 ms, kept-solves: 5000"))
-    buckens("check", "model.yaml").must(2, "model.yaml:10:", "kept-solves", "5000", "1000 at most")
+    buckens("check", "model.yaml").must(2, "model.yaml:10:", "kept-solves", "5000", "at most 1000")

@@ -85,7 +85,7 @@ TEST(UniversalFile, ReadsNodesElementsAndGroups) {
   EXPECT_EQ(mesh.face_sets[0].name, "ground");
   EXPECT_EQ(mesh.face_sets[0].faces.size(), 1u);
   ASSERT_EQ(mesh.notes.size(), 1u);
-  EXPECT_THAT(mesh.notes[0].text, HasSubstr("1 m is 1000 of its units"));
+  EXPECT_THAT(mesh.notes[0].text, HasSubstr("1 m is 1000 of its length units"));
 }
 
 TEST(UniversalFile, IsKnownByItsEndingInAnyLetters) {
