@@ -65,7 +65,7 @@ ARRAYS = {("mesh", "file"), ("matrices", "mass"), ("matrices", "stiffness"), ("m
 
 
 def type_of(schema, kind="", key=""):
-    """The Python type of values that a schema allows, as wide as needed."""
+    """Returns a Python type that covers all values that a schema allows."""
     if (kind, key) in ARRAYS:
         return "Any"
     kinds = schema.get("anyOf", [schema])
@@ -84,7 +84,7 @@ def _listed(value):
 
 
 def object_of(schema):
-    """The variant of a schema that is an object with known keys, or None."""
+    """Returns the variant of a schema that is an object with known keys, or None."""
     if "properties" in schema:
         # A point of the ground is a marker, not a record.
         return None if list(schema["properties"]) == ["ground"] else schema
@@ -101,7 +101,7 @@ def doc_lines(text, indent):
 
 
 def write_class(name, kind, schema, others):
-    """Text of one class. @param others fields beside those of the kind, such as `at` of bodies."""
+    """Returns the text of one class; `others` are fields besides those of the kind, such as `at` of bodies."""
     fields, required = schema["properties"], set(schema.get("required", ()))
     own = {argument(key): (key, value, key in required) for key, value in fields.items()}
     beside = {}
@@ -134,7 +134,7 @@ def write_class(name, kind, schema, others):
 
 
 def kinds_of(schema, suffix, others=()):
-    """(class name, key, schema, fields beside) of each kind in a map of named entries."""
+    """Yields (class name, key, schema, other fields) of each kind in a map of named entries."""
     properties = schema["properties"]
     beside = {key: properties[key] for key in others if key in properties}
     one_of = [entry["required"][0] for entry in schema.get("oneOf", []) if "required" in entry]
@@ -145,7 +145,7 @@ def kinds_of(schema, suffix, others=()):
 
 
 def first_object(schema):
-    """The object that describes one entry of a map of names."""
+    """Returns the object that describes one entry of a map of names."""
     entries = schema["additionalProperties"]
     return object_of(entries) or entries
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Buckens: multibody dynamics of machines whose parts deform.
+"""Buckens: dynamics of flexible multibody systems.
 
 >>> import buckens
 >>> model = buckens.load("slider_crank.yaml", set={"parameters.speed": 100})  # doctest: +SKIP
@@ -7,7 +7,7 @@
 >>> sim.run(progress=True)                                                    # doctest: +SKIP
 >>> buckens.open("out").plot("mid")                                           # doctest: +SKIP
 
-All numbers are in SI units; messages of the library go to the logger "buckens".
+All numbers are in SI units. Library messages go to the logger "buckens".
 """
 
 from . import _core, study
@@ -28,7 +28,7 @@ from .verbs import (check, compare, convert, merge_sweep, mesh_info, modes, stat
 from .yaml_text import to_yaml
 
 __version__: str = _core.version
-# A list by itself: type checkers read no sum, and would take the names for private ones.
+# A plain list: type checkers do not evaluate sums, and would treat the names as private.
 __all__ = ["ArrayMesh", "Body", "Curve", "DifferenceError", "Error", "Frame", "InputError", "IoError", "LivePage", "Model",
            "ModelError", "NumericalError", "ResultMesh", "Results", "RunPage", "Simulation", "check", "compare",
            "continue_run", "convert", "load", "merge_sweep", "mesh_info", "modes", "open", "run", "static", "study", "sweep",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Meshes from arrays: nodes, cells and sets, as meshio, PyVista and h5py hold them."""
+"""Meshes from arrays: nodes, cells and sets, in the conventions of meshio, PyVista and h5py."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from .errors import InputError
 
 Numbers = npt.NDArray[Any]
 
-# Kinds of cells in the words of meshio, their nodes in the order of VTK, and the element of a deck with the
-# same order of nodes.
+# Cell kinds as named by meshio, with nodes in VTK order, and the element type of a deck with the same
+# node order.
 CELLS: Dict[str, Tuple[str, int]] = {
     "tetra": ("C3D4", 4), "tetra10": ("C3D10", 10), "hexahedron": ("C3D8", 8),
     "hexahedron20": ("C3D20", 20), "wedge": ("C3D6", 6), "wedge15": ("C3D15", 15),
@@ -33,23 +33,23 @@ _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_.-]{0,78}")
 
 
 class ArrayMesh:
-    """A mesh in arrays, in place of a file: ``buckens.Mesh(file=ArrayMesh(nodes, cells), material=...)``.
+    """A mesh given as arrays instead of a file: ``buckens.Mesh(file=ArrayMesh(nodes, cells), material=...)``.
 
     Parameters
     ----------
     nodes : (n, 3)
-        Coordinates in model axes, in metres (or in the ``length_unit`` of the mesh).
+        Coordinates in model axes, in metres or in the ``length_unit`` of the mesh.
     cells
-        Node numbers from 0 by kind: ``{"hexahedron": (m, 8)}``. Kinds and their order of nodes are those of
+        Zero-based node numbers by cell kind: ``{"hexahedron": (m, 8)}``. Kinds and node order follow
         meshio and VTK: tetra, tetra10, hexahedron, hexahedron20, wedge, wedge15, pyramid, triangle,
         triangle6, quad, quad8, line.
     node_sets
         Node numbers by name, for ``interfaces: {pin: {set: tip}}``.
     cell_sets
-        Cell numbers by name, counted through all kinds in the order of ``cells``; for ``materials``,
+        Cell numbers by name, numbered through all kinds in the order of ``cells``; for ``materials``,
         ``sections`` and ``only``.
     faces
-        Faces of solids by name, as rows of node numbers (their corners suffice), for
+        Faces of solids by name, as rows of node numbers (corner nodes are enough), for
         ``interfaces: {pin: {face: top}}`` and pressures.
 
     Examples
@@ -93,13 +93,13 @@ class ArrayMesh:
         self._sides = dict(self._find_sides()) if self.faces else {}
 
     def _find_sides(self) -> Iterator[Tuple[str, List[Tuple[int, int]]]]:
-        """(element, number of its side), from 1, of each row of each face."""
+        """Yields each face as a list of (element, side) with numbers from 1."""
         sides: Dict[Tuple[int, ...], Tuple[int, int]] = {}
         first = 1
         for kind, rows in self.cells.items():
             for side, corners in enumerate(_FACES.get(kind.rstrip("0123456789"), ())):
                 for row, key in enumerate(np.sort(rows[:, corners], axis=1).tolist()):
-                    # Of a face within the mesh, either side will do.
+                    # For a face inside the mesh, either side will do.
                     sides[tuple(key)] = (first + row, side + 1)
             first += len(rows)
         for name, table in self.faces.items():
@@ -117,7 +117,7 @@ class ArrayMesh:
             yield name, found
 
     def to_deck(self) -> bytes:
-        """The mesh as a deck (.inp). Its nodes are called n1, n2, ...: one more than their number here."""
+        """Returns the mesh as a deck (.inp). Nodes are named n1, n2, ..., one more than their index here."""
         out = io.StringIO()
         out.write("*NODE\n")
         for number, (x, y, z) in enumerate(self.nodes.tolist(), 1):
@@ -148,7 +148,7 @@ class ArrayMesh:
 
 
 def _write_list(out: io.StringIO, numbers: List[int]) -> None:
-    """A line of a deck ends after 16 entries, and goes on after a comma."""
+    """Writes lines of at most 15 entries; a trailing comma continues a line."""
     for start in range(0, len(numbers), 15):
         out.write(",".join(map(str, numbers[start:start + 15])))
         out.write(",\n" if start + 15 < len(numbers) else "\n")
@@ -169,7 +169,7 @@ def _coordinates(nodes: npt.ArrayLike) -> Numbers:
 
 
 def _numbers(what: str, values: npt.ArrayLike, count: int, of: str) -> Numbers:
-    """Whole numbers from 0 to count - 1."""
+    """Converts to integers and checks that they are from 0 to count - 1."""
     try:
         table = np.asarray(values)
     except ValueError:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Arrays that know their unit."""
+"""Arrays with units."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ class Curve(np.ndarray[Any, Any]):
     name : str
         Path or name of the quantity.
     unit : str
-        "m", "N m"; "1" for pure numbers.
+        Such as "m" or "N m"; "1" for dimensionless values.
     components : tuple of str
-        Names along the last extent; may be empty.
+        Names along the last axis; may be empty.
     """
 
     name: str
@@ -37,5 +37,5 @@ class Curve(np.ndarray[Any, Any]):
         self.components = getattr(origin, "components", ())
 
     def __array_wrap__(self, out: Any, context: Any = None) -> Any:
-        """Results of calculations are plain arrays: their unit is not known."""
+        """Returns plain arrays for results of calculations, as their unit is not known."""
         return out[()] if out.ndim == 0 else np.asarray(out)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What Buckens raises. Messages say what is wrong, where, the value, and what to do about it."""
+"""Exceptions of Buckens. Messages state the error, its location, the value and a remedy."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from typing import Optional
 
 
 class Error(Exception):
-    """Base of all exceptions of Buckens.
+    """Base class of all Buckens exceptions.
 
     Attributes
     ----------
     file, line, column
-        The place in a model file or mesh; None where it is not known.
+        Location in a model file or mesh; None if not known.
     """
 
     file: Optional[str] = None
@@ -21,15 +21,15 @@ class Error(Exception):
 
 
 class InputError(Error):
-    """The input is invalid: syntax, unknown names, units, ranges, arguments."""
+    """The input is invalid: syntax, unknown names, units, ranges or arguments."""
 
 
 class ModelError(Error):
-    """The input can be read, but the mechanism it describes cannot be built or solved."""
+    """The input is valid, but the mechanism that it describes cannot be built or solved."""
 
 
 class NumericalError(Error):
-    """A calculation failed on the way: no convergence, not a number, a singular matrix."""
+    """A calculation failed: no convergence, a value that is not finite, or a singular matrix."""
 
 
 class IoError(Error):
@@ -37,4 +37,4 @@ class IoError(Error):
 
 
 class DifferenceError(Error):
-    """Two runs differ by more than was accepted; see :func:`buckens.compare`."""
+    """Two runs differ by more than the tolerance; see :func:`buckens.compare`."""

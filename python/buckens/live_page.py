@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A page that follows a run while it goes on, served by the program in a process of its own."""
+"""A page that follows a running simulation, served by the program in a separate process."""
 
 from __future__ import annotations
 
@@ -14,12 +14,15 @@ from .program import answer_of, find_program
 
 
 class LivePage:
-    """A served page. It ends with :meth:`close`, a ``with`` block, this object, Python, or Ctrl-C.
+    """A page being served.
+
+    Serving ends with :meth:`close`, at the end of a ``with`` block, when this object is deleted, when Python
+    exits, or with Ctrl-C.
 
     Attributes
     ----------
     address : str
-        For the browser. It holds a secret, reaches this machine only, and nothing else is served there.
+        URL for the browser. It contains a secret and is reachable from this machine only; nothing else is served.
     """
 
     def __init__(self, arguments: Sequence[str]) -> None:
@@ -48,22 +51,22 @@ class LivePage:
 
     @property
     def is_open(self) -> bool:
-        """Whether it is still served."""
+        """Whether the page is still served."""
         return self._process.poll() is None
 
     def open(self) -> None:
-        """Opens it in the browser.
+        """Opens the page in the browser.
 
         Raises
         ------
         IoError
-            If no browser can be started.
+            If no browser is available.
         """
         if not webbrowser.open(self.address):
             raise IoError(f"{self.address}: no browser could be started; open this address in one")
 
     def close(self) -> None:
-        """Ends it; once more does nothing."""
+        """Stops serving; further calls have no effect."""
         self._end()
 
     def __enter__(self) -> LivePage:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the library says goes to the logger "buckens"."""
+"""Passes library messages to the logger "buckens"."""
 
 from __future__ import annotations
 
@@ -12,6 +12,6 @@ _LEVELS = (logging.DEBUG, logging.INFO, logging.WARNING, logging.ERROR)
 
 
 def tell_messages() -> None:
-    """Hands over what the library has said since the last call."""
+    """Logs the messages of the library since the last call."""
     for level, text in _core.take_messages():
         logger.log(_LEVELS[level], text)

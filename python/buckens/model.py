@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Models: read from a file, or made from a dictionary or objects with the same keys."""
+"""Models read from a file, or made from a dictionary or objects with the same keys."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ PathLike = Union[str, "os.PathLike[str]"]
 
 
 def overrides_of(changes: Overrides) -> List[str]:
-    """Changes as the program takes them after `--set`: "bodies.rod.beam.elements=32"."""
+    """Converts changes to arguments of `--set`, such as "bodies.rod.beam.elements=32"."""
     if changes is None:
         return []
     if isinstance(changes, str):
@@ -30,16 +30,16 @@ def overrides_of(changes: Overrides) -> List[str]:
 
 
 class Model:
-    """A model: what a model file says. It never changes.
+    """A model, with the contents of a model file. They never change; :meth:`with_changes` returns a changed copy.
 
     Parameters
     ----------
     **keys
-        Those of a model file: ``bodies``, ``joints``, ``loads``, ``simulation``, ... (a hyphen becomes
-        an underscore nowhere: give such keys with :meth:`from_dict`). Values are numbers in SI units,
-        texts with units ("10 mm"), expressions, arrays, lists, dictionaries, or objects such as
-        :class:`buckens.Beam`; the ``file`` of a mesh may be a :class:`buckens.ArrayMesh`, the matrices of
-        a body arrays or sparse matrices of SciPy.
+        Keys of a model file: ``bodies``, ``joints``, ``loads``, ``simulation``, ... Hyphens are not
+        converted to underscores: pass such keys to :meth:`from_dict`. Values are numbers in SI units,
+        strings with units ("10 mm"), expressions, arrays, lists, dictionaries, or objects such as
+        :class:`buckens.Beam`. The ``file`` of a mesh may be a :class:`buckens.ArrayMesh`; matrices of
+        a body may be arrays or SciPy sparse matrices.
 
     Examples
     --------
@@ -73,14 +73,14 @@ class Model:
 
     @classmethod
     def from_dict(cls, tree: Mapping[str, Any], directory: PathLike = ".") -> Model:
-        """A model from a dictionary with the keys of a model file.
+        """Creates a model from a dictionary with the keys of a model file.
 
         Parameters
         ----------
         tree
-            As a model file in YAML would be read; the key ``buckens`` may be missing.
+            Contents as read from a YAML model file; the key ``buckens`` may be omitted.
         directory
-            Where the files lie that the model names.
+            Directory of the files that the model names.
 
         Raises
         ------
@@ -92,36 +92,36 @@ class Model:
 
     @classmethod
     def from_yaml(cls, text: str, directory: PathLike = ".") -> Model:
-        """A model from the text of a model file."""
+        """Creates a model from the text of a model file."""
         name = os.path.join(os.fspath(directory), "model.yaml")
         return cls._of(_core.Model.parse(text, name, [], False), ModelFiles())
 
     def with_changes(self, changes: Overrides) -> Model:
-        """The same model with other values.
+        """Returns a copy of the model with changed values.
 
         Parameters
         ----------
         changes
-            ``{"bodies.rod.beam.elements": 32}``, as `--set` of the program.
+            Values by path, ``{"bodies.rod.beam.elements": 32}``, as for the option `--set`.
         """
         name = os.path.join(self._core.directory, "model.yaml")
         core = _core.Model.parse(self._core.source, name, overrides_of(changes), False)
         return Model._of(core, self._files, self._forces, self._signals)
 
     def force(self, marker: str, name: Optional[str] = None) -> Callable[[ForceFunction], ForceFunction]:
-        """Decorator: a force on a marker by a function, evaluated within the steps.
+        """Decorator: computes the force on a marker by a function, within each time step.
 
-        The function is called as ``f(t, x, v)`` with the time [s] and the position [m] and velocity
-        [m/s] of the marker (world axes, arrays of 3), several times per step, and returns three
-        numbers [N], world axes. It must give the same for the same arguments. Its derivatives by
-        position and velocity are formed by differences.
+        The function is called as ``f(t, x, v)`` with the time [s] and the marker's position [m] and
+        velocity [m/s] (world axes, arrays of 3), several times per step. It returns three numbers [N],
+        world axes, and must return the same value for the same arguments. Derivatives with respect to
+        position and velocity are computed by finite differences.
 
         Parameters
         ----------
         marker
-            "rod/end", or "rod" for the origin of its frame.
+            Such as "rod/end", or "rod" for the origin of the body frame.
         name
-            Of the load in results; without it that of the function.
+            Name of the load in the results; by default that of the function.
         """
 
         def add(function: ForceFunction) -> ForceFunction:
@@ -133,21 +133,21 @@ class Model:
 
     def signal(self, name: Optional[str] = None,
                inputs: Optional[Sequence[str]] = None) -> Callable[[SignalFunction], SignalFunction]:
-        """Decorator: the value of a signal by a function, evaluated within the steps.
+        """Decorator: computes the value of a signal by a function, within each time step.
 
         The function is called with the time [s] and the values of other signals at the same instant,
-        several times per step, and returns a number. It must give the same for the same arguments.
-        What it does to motors and loads is part of the step's iteration, with derivatives by
-        differences: a controller has no delay.
+        several times per step. It returns a number, and must return the same value for the same
+        arguments. Its effect on motors and loads is part of the step's iteration, with derivatives by
+        finite differences: a controller has no delay.
 
         Parameters
         ----------
         name
-            Of a signal with a ``setting`` or a formula, whose place the function takes; without it
-            the name of the function.
+            Name of a signal with a ``setting`` or a formula, which the function replaces; by default the
+            name of the function.
         inputs
-            Names of the signals that it takes; without it the names of its parameters after the
-            first, except those with defaults.
+            Names of the signals that the function takes; by default the names of its parameters after
+            the first, except those with default values.
 
         Examples
         --------
@@ -163,22 +163,22 @@ class Model:
         return add
 
     def to_yaml(self) -> str:
-        """The text of a model file with this model. Forces and signals by functions are not part of it.
+        """Returns the model as the text of a model file, without forces and signals computed by functions.
 
-        Meshes and matrices given as arrays are named in it as files that go with this model;
+        Meshes and matrices given as arrays appear as names of files that exist as long as the model;
         :meth:`save` writes them, too.
         """
         return self._core.source
 
     def save(self, path: PathLike) -> None:
-        """Writes :meth:`to_yaml` to a file, and beside it meshes and matrices that were given as arrays."""
+        """Writes a model file, and next to it the meshes and matrices that were given as arrays."""
         text = self._files.write_beside(os.path.dirname(os.fspath(path)) or ".", self.to_yaml())
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)
 
     @property
     def title(self) -> str:
-        """One line about the model."""
+        """Title of the model."""
         return self._core.title
 
     @property
@@ -193,7 +193,7 @@ class Model:
 
     @property
     def loads(self) -> List[str]:
-        """Names of loads and force laws, without forces by functions."""
+        """Names of loads and force laws, without forces computed by functions."""
         return self._core.loads
 
     @property
@@ -208,7 +208,7 @@ class Model:
 
     @property
     def warnings(self) -> List[str]:
-        """Doubts about implausible values."""
+        """Warnings about implausible values."""
         return self._core.warnings
 
     def __repr__(self) -> str:
@@ -233,8 +233,8 @@ def load(path: PathLike, set: Overrides = None) -> Model:  # noqa: A002 (the pro
     path
         A model file in YAML or JSON.
     set
-        Values to replace, ``{"bodies.rod.beam.elements": 32, "parameters.L": "280 mm"}``, as `--set`
-        of the program.
+        Values to replace, ``{"bodies.rod.beam.elements": 32, "parameters.L": "280 mm"}``, as for the
+        option `--set`.
 
     Raises
     ------

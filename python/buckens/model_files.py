@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files that a model names and that were made of arrays: meshes, matrices, tables of nodes."""
+"""Files made from arrays for a model: meshes, matrices and node tables."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _MATRICES = (".matrices.mass", ".matrices.stiffness", ".matrices.damping")
 
 
 class ModelFiles:
-    """Files of a model, in a folder that lives as long as this."""
+    """Files of a model, in a temporary folder that exists as long as this object."""
 
     def __init__(self) -> None:
         self._folder: Optional[tempfile.TemporaryDirectory[str]] = None
@@ -29,7 +29,7 @@ class ModelFiles:
         return bool(self._contents)
 
     def name_of(self, value: Any, place: str) -> Optional[str]:
-        """Writes what has to be a file and returns its name; None for all other values."""
+        """Writes a value that must be a file and returns the file name; None for all other values."""
         content, suffix = _content(value, place)
         if content is None:
             return None
@@ -46,10 +46,10 @@ class ModelFiles:
         return name
 
     def with_places(self, text: str, tree: Mapping[str, Any], directory: str) -> "tuple[str, str]":
-        """The text of a model in which the files are found, and the directory of the names in it.
+        """Returns the text of a model that can find its files, and the directory for relative names.
 
-        Ours stay relative, so that a saved state fits the same model in another process. If the model names files of the
-        user as well, these keep their directory and ours are given with theirs.
+        Our file names stay relative, so that a saved state fits the same model in another process. If the model also names
+        files of the user, relative names refer to their directory and ours become absolute.
         """
         if self._folder is None:
             return text, directory
@@ -60,7 +60,7 @@ class ModelFiles:
         return text, directory
 
     def write_beside(self, directory: str, text: str, is_absolute: bool = False) -> str:
-        """Writes the files into a directory; returns the text of the model with their places there."""
+        """Writes the files into a directory and returns the model text with their new paths."""
         if self._folder is None:
             return text
         for name, content in self._contents.items():
@@ -74,7 +74,7 @@ class ModelFiles:
 
 
 def _texts(value: Any) -> Iterator[str]:
-    """All texts in a tree."""
+    """Yields all strings in a tree."""
     if isinstance(value, (str, os.PathLike)):
         yield os.fspath(value)
     elif isinstance(value, Mapping):
@@ -92,7 +92,7 @@ def _is_file(text: str, directory: str) -> bool:
 
 
 def _content(value: Any, place: str) -> "tuple[Optional[bytes], str]":
-    """Content and suffix of the file that a value has to be."""
+    """Returns content and suffix of the file for a value, or None and an empty suffix."""
     if isinstance(value, ArrayMesh):
         if not place.endswith(".mesh.file"):
             raise InputError(f"{place}: a mesh in arrays stands for the `file` of a `mesh`")
@@ -109,7 +109,7 @@ def _content(value: Any, place: str) -> "tuple[Optional[bytes], str]":
 
 
 def _matrix_market(value: Any, place: str) -> bytes:
-    """A matrix in the format of Matrix Market, each number with all its digits."""
+    """Returns a matrix in Matrix Market format, with all digits of each number."""
     if hasattr(value, "tocoo"):
         table = value.tocoo(copy=True)
         if hasattr(table, "sum_duplicates"):
@@ -138,7 +138,7 @@ def _matrix_market(value: Any, place: str) -> bytes:
 
 
 def _node_table(value: Any, place: str) -> bytes:
-    """Coordinates (n, 3) as the table `node,x,y,z`; nodes have the numbers 1, 2, ..."""
+    """Returns coordinates (n, 3) as the table `node,x,y,z`, with node numbers from 1."""
     try:
         table = np.asarray(value, dtype=np.float64)
     except (TypeError, ValueError):

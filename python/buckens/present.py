@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a simulation shows between steps: motions of bodies, sensors, energies, signals."""
+"""Current values of a simulation: motion of bodies, sensors, energies and signals."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ Array = npt.NDArray[np.float64]
 
 
 class Frame:
-    """Motion of a body's frame: arrays that follow the simulation, read-only.
+    """Motion of a body frame, as read-only arrays that follow the simulation.
 
     Attributes
     ----------
     position : (3,) array
-        Origin, the mass centre of the body, in world axes [m].
+        Position of the origin, the mass centre of the body, in world axes [m].
     rotation : (3, 3) array
-        From body axes to world axes.
+        Rotation matrix from body axes to world axes.
     velocity : (3,) array
-        Of the origin, world axes [m/s].
+        Velocity of the origin, in world axes [m/s].
     angular_velocity : (3,) array
-        In body axes [rad/s].
+        Angular velocity in body axes [rad/s].
     """
 
     def __init__(self, numbers: Array) -> None:
@@ -48,20 +48,20 @@ class Body:
 
     @property
     def frame(self) -> Frame:
-        """Motion of its frame."""
+        """Motion of the body frame."""
         return Frame(self._core.frame(self.name))
 
     @property
     def displacements(self) -> Array:
-        """Nodal displacements [m] and rotations [rad] in body axes, (nodes, 6).
+        """Nodal displacements [m] and rotations [rad] in body axes, shape (nodes, 6).
 
-        A read-only array without copy: it follows the simulation and keeps it alive.
+        A read-only view that follows the simulation and keeps it alive.
         """
         return self._core.displacements(self.name)
 
     @property
     def velocities(self) -> Array:
-        """Rates of :attr:`displacements`, (nodes, 6) [m/s, rad/s]."""
+        """Time derivatives of :attr:`displacements`, shape (nodes, 6) [m/s, rad/s]."""
         return self._core.velocities(self.name)
 
     def __repr__(self) -> str:
@@ -93,7 +93,7 @@ class Bodies(Mapping[str, Body]):
 
 
 class Values(Mapping[str, Any]):
-    """Present values of a kind of quantity by name: sensors, energies."""
+    """Current values of sensors or energies by name."""
 
     def __init__(self, core: _core.Simulation, prefix: str) -> None:
         self._core, self._prefix = core, prefix
@@ -115,7 +115,7 @@ class Values(Mapping[str, Any]):
 
 
 class Signals(Mapping[str, float]):
-    """Present values of the signals by name."""
+    """Current values of the signals by name."""
 
     def __init__(self, core: _core.Simulation) -> None:
         self._core = core

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Calls of the program `buckens` that belongs to this module."""
+"""Calls the program `buckens` that belongs to this module."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ _WARNING = "buckens: warning: "
 
 
 def find_program() -> str:
-    """The program of the same build or installation; the variable BUCKENS_PROGRAM names another.
+    """Returns the program of the same build or installation; the variable BUCKENS_PROGRAM overrides it.
 
     Raises
     ------
     IoError
-        If the program is not found.
+        If no program is found.
     """
     named = os.environ.get("BUCKENS_PROGRAM")
     if named:
@@ -49,7 +49,7 @@ def find_program() -> str:
 
 @contextmanager
 def file_of(model: ModelLike) -> Iterator[str]:
-    """A model file with the model, which is removed afterwards if it was made for this."""
+    """Provides a file with the model, and removes it afterwards if it was created here."""
     if not isinstance(model, Model):
         yield os.fspath(model)
         return
@@ -71,12 +71,12 @@ def file_of(model: ModelLike) -> Iterator[str]:
 
 
 def changes_of(set: Overrides) -> List[str]:  # noqa: A002
-    """Options `--set` for changes of a model."""
+    """Returns the options `--set` for changes to a model."""
     return [word for change in overrides_of(set) for word in ("--set", change)]
 
 
 def options_of(**options: Any) -> List[str]:
-    """Options of the program: underscores become hyphens, None and False are left out."""
+    """Returns command-line options: underscores become hyphens, None and False are omitted."""
     out: List[str] = []
     for key, value in options.items():
         if value is None or value is False:
@@ -88,12 +88,12 @@ def options_of(**options: Any) -> List[str]:
 
 
 def call(verb: str, arguments: Sequence[str]) -> Dict[str, Any]:
-    """Calls a verb with `--json` and returns what it prints.
+    """Runs a command with `--json` and returns its output.
 
     Raises
     ------
     Error
-        As the library would: InputError, ModelError, NumericalError, IoError.
+        As raised by the library: InputError, ModelError, NumericalError or IoError.
     KeyboardInterrupt
         After Ctrl-C, once the program has completed its files.
     """
@@ -109,7 +109,7 @@ def call(verb: str, arguments: Sequence[str]) -> Dict[str, Any]:
 
 
 def answer_of(code: int, out: str, err: str) -> Dict[str, Any]:
-    """What a call has printed; warnings go to the logger "buckens", errors are raised."""
+    """Returns the output of a command; logs its warnings and raises its errors."""
     for line in err.splitlines():
         if line.startswith(_WARNING):
             logger.warning(line[len(_WARNING):])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The mesh of a body in a run, for meshio, PyVista or your own code."""
+"""The mesh of a body in a run, for meshio, PyVista or user code."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 Numbers = npt.NDArray[Any]
 
-# Kinds of cells in results.h5, and in the words of meshio with VTK's number; their orders of nodes agree.
+# Cell kinds of results.h5, meshio's names and VTK's cell types; the node order is the same.
 _KINDS: Dict[str, Tuple[str, int, int]] = {
     "line2": ("line", 3, 2), "tri3": ("triangle", 5, 3), "tri6": ("triangle6", 22, 6),
     "quad4": ("quad", 9, 4), "quad8": ("quad8", 23, 8), "tet4": ("tetra", 10, 4),
@@ -24,9 +24,9 @@ class ResultMesh:
     Attributes
     ----------
     points : (n, 3) array
-        Of the nodes [m]: undeformed in axes of the body's frame, or at an instant in world axes.
+        Node coordinates [m]: undeformed in body axes, or at an instant in world axes.
     cells : dict
-        Node numbers from 0 by kind, ``{"hexahedron": (m, 8)}``, in the words and the order of nodes of meshio
+        Zero-based node numbers by cell kind, ``{"hexahedron": (m, 8)}``, with the names and node order of meshio
         and VTK. Beams and bars are "line".
     """
 
@@ -35,20 +35,20 @@ class ResultMesh:
         self.cells = cells
 
     def to_meshio(self) -> Any:
-        """A meshio.Mesh."""
+        """Converts to a meshio.Mesh."""
         import meshio
 
         return meshio.Mesh(self.points, list(self.cells.items()))
 
     def to_pyvista(self) -> Any:
-        """A pyvista.UnstructuredGrid."""
+        """Converts to a pyvista.UnstructuredGrid."""
         import pyvista
 
         rows, kinds = self.to_vtk()
         return pyvista.UnstructuredGrid(rows, kinds, self.points)
 
     def to_vtk(self) -> "tuple[Numbers, Numbers]":
-        """Cells as VTK takes them: each with the number of its nodes before them, and VTK's number of its kind."""
+        """Returns cells for VTK, each preceded by its number of nodes, and VTK's cell types."""
         numbers = {name: (vtk, count) for name, vtk, count in _KINDS.values()}
         rows: List[Numbers] = []
         kinds: List[Numbers] = []
@@ -87,7 +87,7 @@ def read_mesh(file: Any, body: str) -> "ResultMesh":
 
 
 def placed(mesh: ResultMesh, pose: Numbers, displacement: Numbers) -> ResultMesh:
-    """The mesh deformed and at its place in the world."""
+    """Returns the deformed mesh in world axes."""
     w, x, y, z = pose[3:7]
     rotation = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
                          [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run directories (docs/reference/run-directory.md) as arrays."""
+"""Reads run directories (docs/reference/run-directory.md) as arrays."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _FEW = 20
 
 
 class RunPage(str):
-    """The place of a page that shows a run. In a notebook it is the page."""
+    """The path of a page that shows a run. A notebook displays the page."""
 
     def _repr_html_(self) -> str:
         with open_text(pathlib.Path(self)) as file:
@@ -36,9 +36,10 @@ class RunPage(str):
 
 
 class Results:
-    """A run, finished or going on. ``r["tip"]`` is a sensor, ``r["energies/total"]`` any quantity.
+    """Results of a run, which may still be running.
 
-    Values are read when they are asked for; of a run that goes on there are more every time.
+    ``r["tip"]`` is a sensor, ``r["energies/total"]`` any quantity. Values are read on access, so that later access
+    to a run in progress returns more of them.
     """
 
     def __init__(self, directory: PathLike) -> None:
@@ -73,18 +74,18 @@ class Results:
 
     @property
     def energy_account(self) -> Dict[str, Any]:
-        """Where the energy came from and went [J]: ``brought_in``, ``lost`` and ``kept``, each by kind and name
-        (``["lost"]["joint-friction"]["pin"]``), and what is ``unexplained``. Empty for runs that keep none."""
+        """Energy account [J]: ``brought_in``, ``lost`` and ``kept``, each by kind and name
+        (``["lost"]["joint-friction"]["pin"]``), and ``unexplained``. Empty if the run has no account."""
         return dict(self.summary.get("energy_account", {}))
 
     @property
     def status(self) -> str:
-        """"starting", "running", "finished" or "interrupted"."""
+        """State of the run: "starting", "running", "finished" or "interrupted"."""
         return str(self.summary["status"])
 
     @property
     def time(self) -> Curve:
-        """Instants of the records [s]."""
+        """Times of the records [s]."""
         with self._file() as file:
             return Curve(file["time"][:], name="time", unit="s")
 
@@ -105,17 +106,17 @@ class Results:
             return [path for path in _datasets(file) if _is_recorded(path)]
 
     def __getitem__(self, name: str) -> Curve:
-        """A sensor by name ("tip", "tip.x"), or any quantity by path ("energies/total").
+        """Returns a sensor by name ("tip", "tip.x"), or any quantity by path ("energies/total").
 
         Returns
         -------
         Curve
-            (records, ...) with ``unit`` and ``components``.
+            Array of shape (records, ...) with ``unit`` and ``components``.
 
         Raises
         ------
         InputError
-            Naming what is most alike.
+            If there is no such quantity, suggesting the closest name.
         """
         with self._file() as file:
             rows = len(file["time"])
@@ -133,26 +134,26 @@ class Results:
     # ---- fields over meshes
     @property
     def fields(self) -> List[str]:
-        """Paths of fields over meshes, below ``fields/bodies``."""
+        """Paths of fields over meshes, under ``fields/bodies``."""
         with self._file() as file:
             return [path for path in _datasets(file) if path.startswith("fields/bodies/")]
 
     @property
     def field_times(self) -> Curve:
-        """Instants of the fields [s]."""
+        """Times of the fields [s]."""
         with self._file() as file:
             return Curve(file["fields/time"][:] if "fields/time" in file else np.empty(0),
                          name="fields/time", unit="s")
 
     def field(self, quantity: str, body: str, t: Optional[float] = None, on: str = "nodes") -> Curve:
-        """A field over the mesh of a body.
+        """Returns a field over the mesh of a body.
 
         Parameters
         ----------
         quantity
-            "von_mises", "stress", "displacement", ...
+            Such as "von_mises", "stress" or "displacement".
         t
-            The instant nearest to t [s]; None: the last one.
+            Time [s]; the nearest recorded field is returned. None: the last one.
         on
             "nodes", "elements", "shells", "interfaces" or "loads".
         """
@@ -170,13 +171,13 @@ class Results:
                          components=[_text(c) for c in data.attrs.get("components", [])])
 
     def mesh(self, body: str, t: Optional[float] = None) -> ResultMesh:
-        """The mesh of a body.
+        """Returns the mesh of a body.
 
         Parameters
         ----------
         t
-            Deformed and in world axes, at the record nearest to t [s]; None: undeformed, in axes of the frame of
-            the body.
+            Time [s]: the mesh is deformed as in the nearest record, in world axes. None: the mesh is undeformed, in
+            body axes.
         """
         with self._file() as file:
             known = self._tables.rows(file, "bodies")
@@ -211,7 +212,7 @@ class Results:
 
     # ---- to other packages
     def to_pandas(self, *names: str) -> Any:
-        """A pandas.DataFrame of sensors (all without names) over time."""
+        """Returns a pandas.DataFrame of sensors over time; without names, of all sensors."""
         import pandas
 
         columns = {}
@@ -224,7 +225,7 @@ class Results:
         return pandas.DataFrame(columns, index=pandas.Index(np.asarray(self.time), name="t"))
 
     def to_xarray(self) -> Any:
-        """An xarray.Dataset of the sensors over time, with units."""
+        """Returns an xarray.Dataset of the sensors over time, with units."""
         import xarray
 
         out = xarray.Dataset(coords={"t": ("t", np.asarray(self.time), {"units": "s"})})
@@ -235,7 +236,7 @@ class Results:
         return out
 
     def plot(self, *names: str, axes: Any = None) -> Any:
-        """Draws sensors over time with matplotlib and returns the axes."""
+        """Plots sensors over time with matplotlib and returns the axes."""
         if axes is None:
             import matplotlib.pyplot
 
@@ -256,14 +257,14 @@ class Results:
         return axes
 
     def view(self) -> RunPage:
-        """Writes the page that shows the run, so far if it goes on, and returns its place.
+        """Writes a page that shows the run, or what it has recorded so far, and returns its path.
 
-        In a notebook the page shows itself below the cell.
+        A notebook displays the page below the cell.
         """
         return RunPage(write_page(self.directory)["page"])
 
     def _repr_html_(self) -> str:
-        """The page inside a notebook."""
+        """Returns the page for display in a notebook."""
         with tempfile.TemporaryDirectory(prefix="buckens-") as folder:
             page = os.path.join(folder, "view.html")
             write_page(self.directory, page)
@@ -279,13 +280,13 @@ def open(directory: PathLike) -> Results:  # noqa: A001 (the name says what it d
     Raises
     ------
     IoError
-        If there are no results in it.
+        If the directory has no results.
     """
     return Results(directory)
 
 
 def open_text(path: pathlib.Path) -> Any:
-    """The file as text."""
+    """Opens a file as UTF-8 text."""
     return path.open(encoding="utf-8")
 
 

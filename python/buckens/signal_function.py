@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Functions that give the values of signals."""
+"""Functions that compute the values of signals."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from .errors import InputError
 
 #: f(t, ...): time [s] and the values of signals; returns a number.
 SignalFunction = Callable[..., float]
-#: Name of the signal, the signals that its function takes, and the function.
+#: Name of the signal, names of its inputs, and the function.
 GivenSignal = Tuple[str, List[str], SignalFunction]
 
 
 def given_signal(function: SignalFunction, name: Optional[str],
                  inputs: Optional[Sequence[str]]) -> GivenSignal:
-    """A function with its name and inputs, from its parameters where they are not given.
+    """Returns a function with its name and inputs, by default its own name and parameters.
 
     Raises
     ------
     InputError
-        If it cannot be called, or its parameters do not say what it takes.
+        If it is not callable, or its parameters do not define the inputs.
     """
     if not callable(function):
         raise InputError(f"signal: expected a function, found {function!r}")
@@ -34,7 +34,7 @@ def given_signal(function: SignalFunction, name: Optional[str],
 
 
 def _parameters(function: SignalFunction, signal: str) -> List[str]:
-    """Names of the parameters after the first, without those that have a default."""
+    """Returns the names of the parameters after the first, without those that have a default value."""
     try:
         parameters = list(inspect.signature(function).parameters.values())
     except (TypeError, ValueError):

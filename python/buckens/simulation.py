@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Simulations: advanced step by step, to an instant or to the end."""
+"""Simulations that are advanced step by step, to an instant or to the end."""
 
 from __future__ import annotations
 
@@ -23,19 +23,21 @@ Progress = Union[bool, Callable[[float, float, int], object]]
 
 
 class Simulation:
-    """A simulation of a model, set up at once: assembly, one factor per flexible body, a consistent
-    start.
+    """A simulation of a model.
+
+    Creating it assembles the mechanism, factorises one matrix per flexible body and computes consistent
+    initial values.
 
     Parameters
     ----------
     model
-        What to simulate; it needs a ``simulation``.
+        The model; it needs a ``simulation`` section.
     out
-        Directory for results (see :func:`buckens.open`); None: no files are written.
+        Directory for results (see :func:`buckens.open`); None writes no files.
     threads
-        That advance bodies at the same time. Results do not depend on it.
+        Number of threads that advance bodies in parallel. Results do not depend on it.
     record
-        Whether sensors are kept in memory at the instants of records, see :attr:`curves`.
+        Whether sensor records are kept in memory, see :attr:`curves`.
 
     Examples
     --------
@@ -63,21 +65,21 @@ class Simulation:
     @classmethod
     def resume(cls, path: PathLike, model: Model, out: Optional[PathLike] = None, threads: int = 1,
                record: bool = True, *, until: Optional[float] = None) -> Simulation:
-        """Continues bit for bit from a state that :meth:`save` wrote.
+        """Continues from a state saved by :meth:`save`, with bit-identical results.
 
         Parameters
         ----------
         path
-            The file.
+            File with the state.
         model, out, threads, record
-            As of :class:`Simulation`; the model may have another title and duration than the one that was saved.
+            As for :class:`Simulation`; the model may differ from the saved one in title and duration.
         until
-            Another end of the run [s]: the ``duration`` of the model for this simulation.
+            New end of the run [s], which replaces the ``duration`` of the model.
 
         Raises
         ------
         InputError
-            If the model is another one, saying what differs.
+            If the model differs from the saved one, naming the difference.
         IoError
             If the file cannot be read or is damaged.
         """
@@ -102,7 +104,7 @@ class Simulation:
 
     @property
     def _core(self) -> _core.Simulation:
-        """The simulation of the library; set up again if forces or signals were added."""
+        """The library's simulation, set up again if forces or signals were added."""
         if self._core_now is None:
             if self._is_preparing:
                 raise InputError("the simulation is being set up, which is within a step; a force "
@@ -113,12 +115,12 @@ class Simulation:
 
     # ---- advance
     def step(self) -> bool:
-        """Takes one step. Returns False if the end was already reached, then raises.
+        """Takes one step. Returns False if the end was already reached; further calls raise an error.
 
         Raises
         ------
         NumericalError
-            If the step fails, naming the joint or body that resists; the state is as before.
+            If the step fails, naming the joint or body at fault; the state is unchanged.
         """
         if self._is_over:
             raise InputError(f"the run ended at t = {self.time:.6g} s; raise `duration`, or begin "
@@ -127,22 +129,22 @@ class Simulation:
         return not self._is_over
 
     def advance(self, t: float) -> bool:
-        """Takes steps until one ends at or beyond t [s]; returns False if the end came first."""
+        """Takes steps until one ends at or after t [s]; returns False if the run ended first."""
         return self._core.advance(_number("the time to advance to", t))
 
     def run(self, progress: Progress = False) -> Dict[str, Any]:
-        """Takes steps until the end and completes the results. Ctrl-C ends it after a step.
+        """Runs to the end and completes the results. Ctrl-C stops the run after the current step.
 
         Parameters
         ----------
         progress
-            True shows a line on the standard error stream; a function is called with time, end and
-            number of steps, ten times a second.
+            True shows a line on the standard error stream. A function is called with time, end time and
+            number of steps, at most ten times a second.
 
         Returns
         -------
         dict
-            The summary, as summary.json of a run directory.
+            The summary, as in summary.json of a run directory.
         """
         show: Optional[Callable[[float, float, int], object]] = None
         if callable(progress):
@@ -159,19 +161,20 @@ class Simulation:
         return dict(json.loads(text))
 
     def finish(self) -> Dict[str, Any]:
-        """Ends the run here, completes the results and returns the summary."""
+        """Ends the run now, completes the results and returns the summary."""
         text = self._core.finish()
         tell_messages()
         return dict(json.loads(text))
 
     def stop(self) -> None:
-        """Ends the run after the present step; for functions given to :meth:`on_step`."""
+        """Ends the run after the current step; for use in functions passed to :meth:`on_step`."""
         self._core.stop()
 
     def on_step(self, function: Callable[[Simulation], object]) -> Callable[[Simulation], object]:
         """Decorator: calls the function with the simulation after each step.
 
-        What it raises ends the run after this step and comes out of the call that advances.
+        An exception in the function ends the run after this step, and the call that advances the
+        simulation raises it.
         """
         if not callable(function):
             raise InputError(f"on_step: expected a function, found {function!r}")
@@ -189,11 +192,10 @@ class Simulation:
 
     # ---- act
     def force(self, marker: str, name: Optional[str] = None) -> Callable[[ForceFunction], ForceFunction]:
-        """Decorator: a force on a marker by a function, as :meth:`buckens.Model.force`, of this
-        simulation only.
+        """Decorator: as :meth:`buckens.Model.force`, for this simulation only.
 
-        Must be added before anything else is requested from the simulation, which is then set up again; for
-        large models :meth:`buckens.Model.force` saves the time.
+        Use it before the simulation takes a step or hands out arrays. It sets the simulation up again;
+        for large models :meth:`buckens.Model.force` avoids that.
         """
 
         def add(function: ForceFunction) -> ForceFunction:
@@ -207,10 +209,9 @@ class Simulation:
 
     def signal(self, name: Optional[str] = None,
                inputs: Optional[Sequence[str]] = None) -> Callable[[SignalFunction], SignalFunction]:
-        """Decorator: the value of a signal by a function, as :meth:`buckens.Model.signal`, of this
-        simulation only.
+        """Decorator: as :meth:`buckens.Model.signal`, for this simulation only.
 
-        Must be added before anything else is requested from the simulation, as :meth:`force`.
+        Use it before the simulation takes a step or hands out arrays, as :meth:`force`.
         """
 
         def add(function: SignalFunction) -> SignalFunction:
@@ -228,23 +229,24 @@ class Simulation:
                              "taken; add functions first, or to the model")
 
     def set_signal(self, signal: str, value: float) -> None:
-        """Sets a signal with a ``setting`` to a value from now on, which motors and loads that name it
-        follow. The value is part of what :meth:`save` writes.
+        """Sets a signal with a ``setting`` from now on; motors and loads that name it follow it.
+
+        :meth:`save` saves the value, too.
 
         Parameters
         ----------
         value
-            In SI units of what follows it.
+            In SI units of the quantity that follows it.
         """
         self._core.set_signal(signal, _number(f"signal {signal!r}", value))
 
     def set_load(self, load: str, value: Sequence[float]) -> None:
-        """Replaces the law of a force [N] or torque [N m] of the model with a value from now on.
+        """Sets a force [N] or torque [N m] of the model, in place of its law, from now on.
 
         Parameters
         ----------
         value : (3,)
-            In the axes of the load.
+            Components in the axes of the load.
         """
         given = np.asarray(value, dtype=object)
         try:
@@ -260,23 +262,23 @@ class Simulation:
         self._core.release_load(load)
 
     def save(self, path: PathLike) -> None:
-        """Writes everything that :meth:`resume` needs to continue bit for bit."""
+        """Saves the state, from which :meth:`resume` continues with bit-identical results."""
         self._core.save(os.fspath(path))
 
     # ---- look
     @property
     def model(self) -> Model:
-        """What is simulated."""
+        """The simulated model."""
         return self._model
 
     @property
     def directory(self) -> Optional[str]:
-        """Where results go, or None."""
+        """Directory for results, or None."""
         return self._options[0] or None
 
     @property
     def time(self) -> float:
-        """Present instant [s]."""
+        """Current time [s]."""
         return self._core.time
 
     @property
@@ -286,12 +288,12 @@ class Simulation:
 
     @property
     def num_steps(self) -> int:
-        """Steps taken since t = 0."""
+        """Number of steps taken since t = 0."""
         return self._core.num_steps
 
     @property
     def is_done(self) -> bool:
-        """Whether the end is reached."""
+        """Whether the run has reached its end."""
         return self._core.is_done
 
     @property
@@ -306,38 +308,38 @@ class Simulation:
 
     @property
     def sensors(self) -> Values:
-        """Present values of the sensors by name: numbers, or arrays of components."""
+        """Current values of the sensors by name: numbers, or arrays of components."""
         return Values(self._core, "sensors/")
 
     @property
     def signals(self) -> Signals:
-        """Present values of the signals by name."""
+        """Current values of the signals by name."""
         return Signals(self._core)
 
     @property
     def energies(self) -> Values:
-        """Present energies by name [J]."""
+        """Current energies by name [J]."""
         return Values(self._core, "energies/")
 
     @property
     def multipliers(self) -> Array:
-        """Forces [N] and torques [N m] of the joint equations; follows the simulation, read-only."""
+        """Forces [N] and torques [N m] of the joint equations, as a read-only array that follows the simulation."""
         core = self._core
         self._was_seen = True
         return core.multipliers()
 
     def value(self, path: str) -> Any:
-        """Present value of anything that is recorded, "joints/hinge/force"; a copy."""
+        """Returns a copy of the current value of any recorded quantity, such as "joints/hinge/force"."""
         return Values(self._core, "")[path]
 
     @property
     def quantities(self) -> Dict[str, str]:
-        """Paths that :meth:`value` knows, with their units."""
+        """Paths accepted by :meth:`value`, with their units."""
         return {path: unit for path, unit, _ in self._core.quantities()}
 
     @property
     def curves(self) -> Dict[str, Curve]:
-        """Sensors at the instants of records so far, "tip.x"; the instants are "t"."""
+        """Sensor records so far, by name such as "tip.x"; times are "t"."""
         return {name: Curve(values, name=name, unit=unit)
                 for name, unit, values in self._core.curves()}
 
@@ -347,7 +349,7 @@ class Simulation:
 
 
 def keep_files(model: Model, out: str) -> None:
-    """Meshes and matrices given as arrays go into the run directory, whose model.yaml names them."""
+    """Writes meshes and matrices given as arrays to the run directory, and their names to its model.yaml."""
     path = os.path.join(out, "model.yaml")
     with open(path, encoding="utf-8") as file:
         text = file.read()
@@ -356,7 +358,7 @@ def keep_files(model: Model, out: str) -> None:
 
 
 def _number(what: str, value: float) -> float:
-    """A finite number, or an error that says what it was meant for."""
+    """Returns a finite number, or raises an error that names its purpose."""
     if isinstance(value, (str, bytes)):
         raise InputError(f"{what}: expected a number, found {value!r}")
     try:

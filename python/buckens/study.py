@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Studies: samples of quantities that vary, and what their results say. The variants are run by :func:`buckens.sweep`.
+"""Studies: samples of varying quantities, run by :func:`buckens.sweep`, and evaluation of the results.
 
 >>> import buckens
 >>> design = buckens.study.sensitivity({"parameters.L": "300 mm +- 0.2 mm", "parameters.speed": "100 to 150 rad/s"},

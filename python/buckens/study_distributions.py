@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Quantities that vary: distributions with units."""
+"""Varying quantities: distributions with units."""
 
 from __future__ import annotations
 
@@ -17,26 +17,26 @@ Quantity = Union[str, float]
 
 
 class Distribution:
-    """A quantity that varies. Made by :func:`uniform`, :func:`normal`, :func:`lognormal`, :func:`triangular` or from text.
+    """A varying quantity, created by :func:`uniform`, :func:`normal`, :func:`lognormal`, :func:`triangular` or from text.
 
     Attributes
     ----------
     kind
-        Its name.
+        Name of the distribution.
     parameters
-        In the unit as written.
+        Parameters in the unit as written.
     unit
-        "mm"; empty for SI or pure numbers.
+        Such as "mm"; empty for SI units or dimensionless values.
     """
 
     def __init__(self, kind: str, parameters: Sequence[float], unit: str) -> None:
         self.kind, self.parameters, self.unit = kind, tuple(float(value) for value in parameters), unit
 
     def at(self, shares: Any) -> Array:
-        """The values below which given shares (0 to 1) of all values lie, in the unit as written."""
+        """Returns the quantiles for given probabilities (0 to 1), in the unit as written."""
         from scipy import stats
 
-        # Shares of exactly 0 or 1, which designs may hold, would be infinitely far away.
+        # Probabilities of exactly 0 or 1, which designs may contain, would give infinite values.
         p = np.clip(np.asarray(shares, dtype=np.float64), 1e-12, 1 - 1e-12)
         a, b = self.parameters[:2]
         if self.kind == "uniform":
@@ -49,7 +49,7 @@ class Distribution:
         return np.asarray(stats.triang.ppf(p, (peak - low) / (high - low), low, high - low))
 
     def texts(self, values: Any) -> List[str]:
-        """Values as a model file has them: all their digits, and the unit."""
+        """Returns values as in a model file, with all digits and the unit."""
         return [f"{float(value)!r} {self.unit}".rstrip() for value in values]
 
     def __repr__(self) -> str:
@@ -58,7 +58,7 @@ class Distribution:
 
 
 def uniform(low: Quantity, high: Quantity) -> Distribution:
-    """All values from `low` to `high` alike: ``uniform("9 mm", "11 mm")``."""
+    """Returns the uniform distribution from `low` to `high`: ``uniform("9 mm", "11 mm")``."""
     (a, b), unit = _in_one_unit(low, high)
     if not a < b:
         raise InputError(f"uniform: expected low < high, found {low!r} and {high!r}")
@@ -66,7 +66,7 @@ def uniform(low: Quantity, high: Quantity) -> Distribution:
 
 
 def normal(mean: Quantity, deviation: Quantity) -> Distribution:
-    """The normal distribution with a mean and a standard deviation."""
+    """Returns the normal distribution with a mean and a standard deviation."""
     (a, b), unit = _in_one_unit(mean, deviation)
     if not b > 0:
         raise InputError(f"normal: expected a standard deviation above 0, found {deviation!r}")
@@ -74,7 +74,7 @@ def normal(mean: Quantity, deviation: Quantity) -> Distribution:
 
 
 def lognormal(median: Quantity, deviation: float) -> Distribution:
-    """Values whose logarithm is distributed normally, with a standard deviation of that logarithm (0.1 is about 10 %)."""
+    """Returns the lognormal distribution; `deviation` is the standard deviation of the logarithm (0.1 is about 10 %)."""
     (a,), unit = _in_one_unit(median)
     if not (a > 0 and deviation > 0):
         raise InputError(f"lognormal: expected a median and a deviation above 0, found {median!r} and {deviation!r}")
@@ -82,7 +82,7 @@ def lognormal(median: Quantity, deviation: float) -> Distribution:
 
 
 def triangular(low: Quantity, peak: Quantity, high: Quantity) -> Distribution:
-    """Values from `low` to `high`, most of them near `peak`."""
+    """Returns the triangular distribution from `low` to `high` with its mode at `peak`."""
     (a, b, c), unit = _in_one_unit(low, peak, high)
     if not (a <= b <= c and a < c):
         raise InputError(f"triangular: expected low <= peak <= high, found {low!r}, {peak!r} and {high!r}")
@@ -93,13 +93,13 @@ _RANGE = re.compile(r"(.+?)\s+(?:\+-|\+/-|±)\s*(.+)|(.+?)\s+(?:to|…|\.\.\.)\s
 
 
 def distribution_of(path: str, given: Any) -> Distribution:
-    """A distribution, or its text: "10 mm +- 0.1 mm" (normal, the standard deviation after the sign), "9 mm to 11 mm"
-    (uniform). A tolerance within which all values lie is written as a range.
+    """Returns a distribution from a distribution or text: "10 mm +- 0.1 mm" is normal with mean and standard deviation,
+    "9 mm to 11 mm" is uniform. Write a tolerance that contains all values as a range.
 
     Raises
     ------
     InputError
-        Naming the path.
+        If it is not a distribution, naming the path.
     """
     if isinstance(given, Distribution):
         return given
@@ -117,7 +117,7 @@ def distribution_of(path: str, given: Any) -> Distribution:
 
 
 def _with_unit_of(one: str, other: str) -> str:
-    """The unit may be written once: "10 +- 0.1 mm"; a share of the other value in percent: "10 mm +- 2 %"."""
+    """Adds a missing unit from the other value, "10 +- 0.1 mm", and resolves percentages of it, "10 mm +- 2 %"."""
     number, unit, factor, _ = _core.quantity(one)
     value, with_unit, _, _ = _core.quantity(other)
     if unit == "%" and with_unit != "%":
@@ -126,7 +126,7 @@ def _with_unit_of(one: str, other: str) -> str:
 
 
 def _in_one_unit(*quantities: Quantity) -> Tuple[List[float], str]:
-    """Numbers in the unit of the first, and that unit."""
+    """Returns numbers in the unit of the first, and that unit."""
     parts = [_core.quantity(text) if isinstance(text, str) else (float(text), "", 1.0, "") for text in quantities]
     _, unit, factor, dimension = parts[0]
     for text, (_, _, _, other) in zip(quantities, parts):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Evaluation of a study: mean and quantiles of results, main effects, Sobol indices, a picture."""
+"""Evaluation of a study: mean and quantiles of results, main effects, Sobol indices, a figure."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ from .model import PathLike
 from .study_distributions import Array
 from .study_sampling import Samples
 
-#: What :func:`buckens.sweep` returns, or the directory or table that it has written.
+#: The return value of :func:`buckens.sweep`, or the directory or table that it has written.
 SweepLike = Union[Mapping[str, Any], PathLike]
 
 
 def results(sweep: SweepLike, column: str) -> Array:
-    """A column of the table of a sweep as numbers, a row per variant; NaN where a variant failed.
+    """Returns a column of a sweep table as numbers, one per variant; NaN for failed variants.
 
     Parameters
     ----------
     column
-        "tip.y [m] max"; the unit may be left out: "tip.y max".
+        Such as "tip.y [m] max"; the unit may be omitted: "tip.y max".
 
     Raises
     ------
     InputError
-        Naming the columns there are.
+        If there is no such column, naming the existing ones.
     """
     path = os.fspath(sweep["table"] if isinstance(sweep, Mapping) else sweep)
     if os.path.isdir(path):
@@ -52,17 +52,17 @@ def _without_unit(name: str) -> str:
 
 
 class Statistics(NamedTuple):
-    """Of one result over a study."""
+    """Statistics of one result over a study."""
 
-    num_values: int     # of variants that ended well
+    num_values: int     # of successful variants
     mean: float
     deviation: float    # standard deviation
-    mean_error: float   # standard error of the mean, if samples were independent
+    mean_error: float   # standard error of the mean for independent samples
     quantiles: Dict[float, float]
 
 
 def statistics(values: Any, quantiles: Sequence[float] = (0.05, 0.25, 0.5, 0.75, 0.95)) -> Statistics:
-    """Mean, standard deviation and quantiles, without variants that failed (NaN)."""
+    """Returns mean, standard deviation and quantiles, without failed variants (NaN)."""
     good = _good(np.asarray(values, dtype=np.float64))
     deviation = float(np.std(good, ddof=1)) if len(good) > 1 else 0.0
     return Statistics(len(good), float(np.mean(good)), deviation, deviation / float(np.sqrt(len(good))),
@@ -70,13 +70,13 @@ def statistics(values: Any, quantiles: Sequence[float] = (0.05, 0.25, 0.5, 0.75,
 
 
 def main_effects(samples: Samples, values: Any, bins: int = 5) -> Dict[str, Array]:
-    """How the mean of a result depends on each quantity alone.
+    """Returns how the mean of a result depends on each quantity.
 
     Returns
     -------
     dict
-        By path an array (bins, 2): mean of the quantity, in its unit, and mean of the result over the variants of a bin.
-        Bins hold equally many variants; a quantity with fewer values has one for each.
+        For each path an array (bins, 2): mean of the quantity, in its unit, and mean of the result over the variants in a
+        bin. Bins hold equal numbers of variants; a quantity with fewer values than bins has one bin for each.
     """
     results_ = _rows(samples, values)
     out = {}
@@ -94,16 +94,16 @@ def main_effects(samples: Samples, values: Any, bins: int = 5) -> Dict[str, Arra
 
 
 class SobolIndices(NamedTuple):
-    """Shares of the variance of a result by quantity.
+    """Contributions of each quantity to the variance of a result.
 
     Attributes
     ----------
     first
-        What a quantity contributes by itself.
+        First-order index: the contribution of a quantity alone.
     total
-        The same with all that it contributes together with others.
+        Total index: the contribution including interactions with other quantities.
     first_error, total_error
-        Half widths of intervals of 95 %, by resampling.
+        Half-widths of 95 % confidence intervals, by resampling.
     """
 
     first: Dict[str, float]
@@ -113,10 +113,10 @@ class SobolIndices(NamedTuple):
 
 
 def sobol_indices(samples: Samples, values: Any, resamples: int = 200, seed: int = 0) -> SobolIndices:
-    """Sobol indices from a design of :func:`buckens.study.sensitivity`.
+    """Computes Sobol indices from a design of :func:`buckens.study.sensitivity`.
 
-    First-order indices by the estimator of Saltelli et al. (2010), total ones by that of Jansen (1999). Rows with a
-    variant that failed are left out together with their partners.
+    First-order indices use the estimator of Saltelli et al. (2010), total indices that of Jansen (1999). Failed variants
+    are omitted together with their partner rows.
     """
     if samples.kind != "sensitivity":
         raise InputError(f"sobol_indices: the samples are of the kind {samples.kind!r}; make them by buckens.study.sensitivity")
@@ -133,8 +133,8 @@ def sobol_indices(samples: Samples, values: Any, resamples: int = 200, seed: int
 
 
 def _indices(parts: Array) -> "tuple[Array, Array]":
-    """Rows: results of A, of B, and of A with one column from B each."""
-    # The mean is taken off: it does not change the indices, but what their estimators lose to chance.
+    """Computes indices from rows with the results of A, of B, and of A with one column from B each."""
+    # Subtracting the mean does not change the indices, but reduces the scatter of their estimators.
     centred = parts - np.mean(parts[:2])
     a, b, mixed = centred[0], centred[1], centred[2:]
     variance = np.var(centred[:2])
@@ -160,8 +160,8 @@ def _good(values: Array) -> Array:
 
 
 def picture(samples: Samples, values: Any, label: str = "result", file: Optional[PathLike] = None) -> Any:
-    """A figure of matplotlib: how often values occur, with mean and quantiles; each quantity against the result, with its
-    main effect; and Sobol indices, if the design allows them."""
+    """Draws a matplotlib figure: a histogram with mean and quantiles, the result against each quantity with its main
+    effect, and Sobol indices, if the design allows them."""
     results_ = _rows(samples, values)
     told = statistics(results_)
     has_indices = samples.kind == "sensitivity"
@@ -188,7 +188,7 @@ def picture(samples: Samples, values: Any, label: str = "result", file: Optional
 
 
 def _figure(for_a_file: bool, **options: Any) -> Any:
-    """For a file without a window, whatever back end the caller has chosen for others."""
+    """Returns a new figure; one for a file needs no window, whatever the back end."""
     if for_a_file:
         from matplotlib.figure import Figure
         return Figure(**options)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a study has finished, on disk: lines of JSON that workers append, one file per worker and task.
+"""Finished variants of a study on disk: lines of JSON that workers append, one file per worker and task.
 
-Each line is complete or, if its writer was killed or its disk was full, left out when it is read. So nothing that was finished is
-lost, and nothing is half there. The folder is OUT/.rows; `study.json` in it says what the study is.
+Readers skip lines that are incomplete because their writer was killed or its disk was full. Nothing finished is lost, and no
+row is read in part. The folder is OUT/.rows; `study.json` in it identifies the study.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ FOLDER, STUDY, KEPT = ".rows", "study.json", "kept.jsonl"
 
 
 def key_of(study: str, values: Sequence[str]) -> str:
-    """Names a variant by all that its row follows from."""
+    """Returns a key that depends on everything that determines the row of a variant."""
     text = "\0".join([study, *values])
     return hashlib.sha256(text.encode()).hexdigest()[:24]
 
 
 def replace_file(path: pathlib.Path, text: str) -> None:
-    """Readers see the old file or the new one."""
+    """Replaces a file atomically: readers see the old contents or the new."""
     part = path.with_name(f"{path.name}.{os.getpid()}.part")
     with open(part, "w", encoding="utf-8") as file:
         file.write(text)
@@ -40,7 +40,7 @@ def replace_file(path: pathlib.Path, text: str) -> None:
 
 
 class TaskJournal:
-    """The file of one worker about one task."""
+    """The file of one worker for one task."""
 
     def __init__(self, folder: pathlib.Path, study: str, task: str) -> None:
         self._folder, self._task = folder, task
@@ -49,7 +49,7 @@ class TaskJournal:
         self._is_shared = _study_in(folder).get("study") == study
 
     def finished(self) -> Dict[str, Dict[str, Any]]:
-        """Rows of this task by workers that were lost before its end."""
+        """Returns rows of this task from workers that were lost before its end."""
         out: Dict[str, Dict[str, Any]] = {}
         if self._is_shared:
             for path in self._folder.glob(f"{self._task}-*.jsonl"):
@@ -57,11 +57,11 @@ class TaskJournal:
         return out
 
     def begin(self, keys: Sequence[str]) -> None:
-        """Notes what is being run: if the worker is lost, it is known with which variants."""
+        """Records which variants are being run, in case the worker is lost."""
         self._append([{"begin": list(keys), "at": time.time(), "worker": worker_name()}])
 
     def add(self, rows: Sequence[Dict[str, Any]]) -> bool:
-        """Keeps finished rows. Returns whether they are on the disk."""
+        """Stores finished rows. Returns whether they are on disk."""
         return self._append(rows)
 
     def close(self) -> None:
@@ -86,7 +86,7 @@ class TaskJournal:
 
 
 class StudyJournal:
-    """All files of a study, as the process sees them that hands out its variants."""
+    """All files of a study, for the process that distributes its variants."""
 
     def __init__(self, out: pathlib.Path, study: str) -> None:
         self.folder = out / FOLDER
@@ -102,7 +102,7 @@ class StudyJournal:
         self._own = TaskJournal(self.folder, self._study, "handed-in")
 
     def read(self) -> None:
-        """Takes in what has come since the last time."""
+        """Reads the lines added since the last call."""
         for path in sorted(self.folder.glob("*.jsonl")):
             place = self._places.get(path.name, 0)
             try:
@@ -124,14 +124,14 @@ class StudyJournal:
             self.begun.update({key: (line["at"], line["worker"]) for key in line["begin"] if key not in self.rows})
 
     def keep(self, row: Dict[str, Any]) -> None:
-        """Keeps a row that its worker could not."""
+        """Stores a row that its worker could not store."""
         self.take(row)
         if self._own is None or not self._own.add([row]):
             raise OSError(f"{self.folder}: neither the worker nor this process can write the result of a variant; free disk "
                           "space and call again; finished results are kept")
 
     def tidy(self) -> None:
-        """One file in place of many, once no worker writes any more."""
+        """Merges all files into one, once no worker is writing."""
         if self._own is not None:
             self._own.close()
         text = "".join(json.dumps(row) + "\n" for row in self.rows.values())
@@ -143,12 +143,12 @@ class StudyJournal:
 
 @contextmanager
 def hold(folder: pathlib.Path) -> Iterator[None]:
-    """Keeps other processes from handing out the variants of the same study.
+    """Prevents other processes from running the same study.
 
     Raises
     ------
     InputError
-        If one does already.
+        If another process already runs it.
     """
     with open(folder / "lock", "a", encoding="utf-8") as file:
         try:
@@ -162,7 +162,7 @@ def hold(folder: pathlib.Path) -> Iterator[None]:
 
 
 def unfinished_of(keys: Iterable[str], known: Set[str]) -> List[str]:
-    """Those keys that are not known, in their order."""
+    """Returns the keys that are not known, in order."""
     return [key for key in keys if key not in known]
 
 

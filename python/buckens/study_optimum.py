@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The best variant: minima of results over ranges of quantities, found by sweeps."""
+"""Optimisation: minima of results over ranges of quantities, by sweeps."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .verbs import sweep
 
 
 class Optimum(NamedTuple):
-    """Attributes: values by path, in the units of the ranges; the least result; number of variants run; SciPy's own answer."""
+    """The minimum: values by path, in the units of the ranges; the result; the number of variants run; SciPy's result."""
 
     values: Dict[str, float]
     result: float
@@ -30,22 +30,22 @@ class Optimum(NamedTuple):
 def minimize(model: ModelLike, ranges: Mapping[str, Any], result: "str | Callable[[Mapping[str, Any]], Any]", out: PathLike,
              executor: Optional[ExecutorLike] = None, population: int = 16, generations: int = 20, tolerance: float = 1e-3,
              seed: int = 0, set: Overrides = None) -> Optimum:  # noqa: A002
-    """The values within ranges at which a result is least, by ``scipy.optimize.differential_evolution``.
+    """Minimises a result within ranges of quantities, by ``scipy.optimize.differential_evolution``.
 
-    Each generation is one sweep, so that its variants run side by side or on an executor.
+    Each generation is one sweep, so that its variants run together or on an executor.
 
     Parameters
     ----------
     ranges
-        By path: ``{"parameters.L": "280 mm to 320 mm"}``.
+        Ranges by path: ``{"parameters.L": "280 mm to 320 mm"}``.
     result
-        A column of the table, "tip.y max"; or a function of what :func:`buckens.sweep` returns that gives a number per
-        variant. Variants that fail count as infinitely bad.
+        A column of the table, such as "tip.y max", or a function that takes the return value of :func:`buckens.sweep` and
+        returns a number per variant. Failed variants count as infinitely bad.
     out
-        Directory; a folder per generation. The same call later goes through the finished ones at once.
+        Directory, with a folder per generation. Repeating the call skips finished generations.
     population, generations, tolerance
-        Variants per generation, at least five per quantity; at most so many generations; and the spread of results (relative)
-        at which it ends.
+        Variants per generation, at least five per quantity; maximum number of generations; relative spread of results at
+        which the iteration ends.
     """
     from scipy.optimize import differential_evolution
 

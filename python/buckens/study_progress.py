@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Progress of a study: totals over all workers, remaining time, slowest variants."""
+"""Progress of a study over all workers: remaining time and slow variants."""
 
 from __future__ import annotations
 
@@ -22,15 +22,16 @@ class Progress(NamedTuple):
     Attributes
     ----------
     variants, done, failed, kept
-        All, those with a result, those without one, and those of `done` that an earlier call had finished.
+        Numbers of all variants, of those with a result, of failed ones, and of those in `done` that an earlier call had
+        finished.
     running
-        Name, age [s] and worker of variants that are being run, the oldest first.
+        Name, elapsed time [s] and worker of running variants, the oldest first.
     slowest
-        Name and duration [s] of the five that took longest.
+        Name and duration [s] of the five slowest variants.
     seconds_each
-        Mean duration of a variant; None before the first.
+        Mean duration of a variant [s]; None before the first.
     under_way
-        Tasks that are handed out.
+        Number of submitted tasks.
     """
 
     variants: int
@@ -62,7 +63,7 @@ ProgressLike = Union[bool, Callable[[Progress], object]]
 
 
 class ProgressDisplay:
-    """Lines on the standard error stream, or calls of a function, every two seconds."""
+    """Shows progress every two seconds, on the standard error stream or by calling a function."""
 
     def __init__(self, progress: ProgressLike) -> None:
         self._tell = progress
@@ -74,7 +75,7 @@ class ProgressDisplay:
         return bool(self._tell) and time.monotonic() >= self._next
 
     def show(self, progress: Progress) -> None:
-        """Tells now; :meth:`is_due` says when it is time to."""
+        """Shows progress now; :meth:`is_due` tells when that is due."""
         if self._first is None:
             self._first = progress.ended
         self._next = time.monotonic() + _INTERVAL
@@ -97,7 +98,7 @@ class ProgressDisplay:
 
 
 def clock(seconds: float) -> str:
-    """A duration as people say it."""
+    """Returns a duration as text."""
     minutes, rest = divmod(int(seconds + 0.5), 60)
     hours, minutes = divmod(minutes, 60)
     if hours:
@@ -106,12 +107,12 @@ def clock(seconds: float) -> str:
 
 
 def status(out: PathLike) -> Progress:
-    """Progress of a study that runs in another process, or was stopped.
+    """Returns the progress of a study that runs in another process or was stopped.
 
     Raises
     ------
     InputError
-        If there is no study in this directory.
+        If there is no study in the directory.
     """
     folder = pathlib.Path(out)
     try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A sweep on the workers of an executor: who runs what, what is lost and what comes back."""
+"""A sweep on the workers of an executor: distribution of variants, lost workers and results."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ Wave = List[Tuple[str, Variant]]
 
 
 class StudyRun:
-    """One call: hands out waves of variants until each has a row."""
+    """One sweep: distributes waves of variants until each has a row."""
 
     def __init__(self, study: Study, table: VariantTable, workers: Workers, together: int, display: ProgressDisplay) -> None:
         self._study, self._table, self._workers, self._display = study, table, workers, display
@@ -53,7 +53,7 @@ class StudyRun:
         self.work_seconds: Dict[str, float] = {}  # by worker
 
     def _waves(self, together: int) -> Deque[Tuple[int, Wave]]:
-        """What is to be run, group by group. Waves do not depend on what is finished: large bodies then give the same bits."""
+        """Returns the waves to run, by group. They do not depend on what is finished, so that large bodies give the same bits."""
         groups = _core.matrix_groups(self._study.model, self._study.overrides, self._table.paths, self._table.variants)
         by_group: Dict[int, Dict[str, Variant]] = {}
         for key, group, variant in zip(self._keys, groups, self._table.variants):
@@ -68,7 +68,7 @@ class StudyRun:
         return out
 
     def run(self) -> None:
-        """Returns when every variant has ended; raises what concerns the study and not a variant."""
+        """Returns when every variant has ended; raises errors that concern the whole study."""
         is_hurried = True
         try:
             self._show()
@@ -93,7 +93,7 @@ class StudyRun:
         self._journal.tidy()
 
     def _look_after(self) -> None:
-        """Nothing has come back for a while: it will not if the scheduler has forgotten it."""
+        """Resubmits tasks that the scheduler has lost; called when nothing has been returned for a while."""
         self._workers.check()
         for future, (task, scheduler) in list(self._flying.items()):
             if scheduler != self._workers.scheduler and not future.done():
@@ -113,7 +113,7 @@ class StudyRun:
         return Progress.of(len(self._keys), len(self.kept), rows, begun, len(self._flying))
 
     def _next_task(self) -> Task:
-        """Waves of one group: as many as a task should last, but each worker gets its share of what is left."""
+        """Returns waves of one group for one task: enough for its intended duration, but no more than a worker's share."""
         group = self._queue[0][0]
         size = len(self._queue[0][1])
         share = math.ceil(self._num_queued / (4 * self._workers.count) / size)
@@ -145,7 +145,7 @@ class StudyRun:
             self._per_variant = mean if self._per_variant is None else 0.7 * self._per_variant + 0.3 * mean
 
     def _take_loss(self, task: Task) -> None:
-        """What the worker had finished is on the disk. Variants with which it was lost too often are given up."""
+        """Reads what the lost worker had finished. Gives up variants with which workers were lost too often."""
         self._journal.read()
         group = task.group
         for wave in task.waves:
@@ -178,7 +178,7 @@ class StudyRun:
         self._journal.take({"key": key, "cells": cells, "seconds": 0.0})
 
     def rows(self) -> List[List[Tuple[str, str]]]:
-        """Cells of each variant in the order of the table."""
+        """Returns the cells of each variant in the order of the table."""
         out = []
         for key, (name, values) in zip(self._keys, self._table.variants):
             row = self._journal.rows.get(key)
@@ -207,7 +207,7 @@ def _explained(error: BaseException) -> BaseException:
 
 def sweep_on(executor: ExecutorLike, model: ModelLike, table: TableLike, out: PathLike, together: Optional[int],
              set: Overrides, progress: Any, workers: Optional[int]) -> Dict[str, Any]:  # noqa: A002
-    """The part of :func:`buckens.sweep` that is done with an executor."""
+    """Runs :func:`buckens.sweep` with an executor."""
     folder = pathlib.Path(out).absolute()
     try:
         (folder / FOLDER).mkdir(parents=True, exist_ok=True)
@@ -234,7 +234,7 @@ def sweep_on(executor: ExecutorLike, model: ModelLike, table: TableLike, out: Pa
 
 
 def _lasting(model: ModelLike, folder: pathlib.Path) -> str:
-    """The model file; a model that is none becomes one beside the results, where workers see it."""
+    """Returns the model file; writes a model in memory next to the results, where workers can read it."""
     if not isinstance(model, Model):
         return os.path.abspath(model)
     with file_of(model) as file:

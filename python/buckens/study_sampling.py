@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Samples of quantities that vary, as tables for :func:`buckens.sweep`."""
+"""Samples of varying quantities, as tables for :func:`buckens.sweep`."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from .study_distributions import Array, Distribution, distributions_of
 
 
 class Samples:
-    """A design: rows of values by path, ready to be run by :func:`buckens.sweep` and to be judged by its makers.
+    """A design: rows of values by path, to be run by :func:`buckens.sweep`.
 
     Attributes
     ----------
     columns
         Paths in the model file.
     values
-        (rows, paths), in the units of the distributions.
+        Array (rows, paths), in the units of the distributions.
     units
-        By path.
+        Units by path.
     kind
         "grid", "latin-hypercube", "sobol" or "sensitivity".
     """
@@ -38,12 +38,12 @@ class Samples:
         return len(self.values)
 
     def itertuples(self, index: bool = False, name: Optional[str] = None) -> Any:
-        """Rows as texts with units, as a pandas.DataFrame would give them."""
+        """Returns rows as strings with units, like those of a pandas.DataFrame."""
         texts = [distribution.texts(column) for distribution, column in zip(self._distributions.values(), self.values.T)]
         return zip(*texts)
 
     def to_pandas(self) -> Any:
-        """A pandas.DataFrame of numbers, in the units of the distributions."""
+        """Returns a pandas.DataFrame of numbers, in the units of the distributions."""
         import pandas
 
         return pandas.DataFrame(self.values, columns=[f"{path} [{self.units[path]}]" if self.units[path] else path
@@ -54,7 +54,7 @@ class Samples:
 
 
 def grid(quantities: Mapping[str, Any], count: int = 5) -> Samples:
-    """All combinations of `count` values of each quantity, in the middle of ranges of equal probability."""
+    """Returns all combinations of `count` values of each quantity, at the medians of intervals of equal probability."""
     distributions = distributions_of(dict(quantities))
     _check_count(count, 1, "count")
     if count ** len(distributions) > 100_000:
@@ -66,7 +66,8 @@ def grid(quantities: Mapping[str, Any], count: int = 5) -> Samples:
 
 
 def latin_hypercube(quantities: Mapping[str, Any], count: int, seed: int = 0) -> Samples:
-    """`count` rows that divide each quantity into as many ranges of equal probability and hold one value of each."""
+    """Returns a Latin hypercube: `count` rows, with one value of each quantity in each of `count` intervals of equal
+    probability."""
     from scipy.stats import qmc
 
     distributions = distributions_of(dict(quantities))
@@ -75,18 +76,18 @@ def latin_hypercube(quantities: Mapping[str, Any], count: int, seed: int = 0) ->
 
 
 def sobol(quantities: Mapping[str, Any], count: int, seed: int = 0) -> Samples:
-    """The first `count` points of Sobol's sequence, scrambled: they fill the space more evenly than chance. A power of two
-    is best."""
+    """Returns the first `count` points of a scrambled Sobol sequence, which fill the space more evenly than random points.
+    A power of two is best."""
     distributions = distributions_of(dict(quantities))
     _check_count(count, 1, "count")
     return _from_shares(distributions, _sobol_points(len(distributions), count, seed), "sobol")
 
 
 def sensitivity(quantities: Mapping[str, Any], count: int, seed: int = 0) -> Samples:
-    """A design from which :func:`sobol_indices` finds what each quantity contributes to the variance of a result.
+    """Returns a design for :func:`sobol_indices`.
 
-    Saltelli's: two independent samples A and B of `count` rows (a power of two), then for each quantity A with the
-    column of that quantity from B; count (quantities + 2) rows.
+    Saltelli's design: two independent samples A and B of `count` rows (a power of two), then for each quantity A with the
+    column of that quantity taken from B. In total count (quantities + 2) rows.
     """
     distributions = distributions_of(dict(quantities))
     _check_count(count, 2, "count")
@@ -112,7 +113,7 @@ def _sobol_points(dimensions: int, count: int, seed: int) -> Array:
     from scipy.stats import qmc
 
     sequence = qmc.Sobol(dimensions, scramble=True, seed=seed)
-    # SciPy warns of counts that are no powers of two; the points are the same ones.
+    # SciPy warns about counts that are not powers of two; the points are the same.
     power = int(np.ceil(np.log2(max(count, 1))))
     return np.asarray(sequence.random_base2(power)[:count])
 

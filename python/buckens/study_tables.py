@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tables of variants, from files, ranges and frames of pandas, as the library takes them."""
+"""Converts files, ranges and pandas.DataFrames to tables of variants for the library."""
 
 from __future__ import annotations
 
@@ -18,24 +18,24 @@ TableLike = Union[PathLike, Mapping[str, Sequence[Any]], Any]
 
 
 class VariantTable(NamedTuple):
-    """Quantities of the model by path, and variants: name and values as text."""
+    """Paths of quantities in the model, and variants with name and values as text."""
 
     paths: List[str]
     variants: List[Tuple[str, List[str]]]
 
 
 def is_frame(table: Any) -> bool:
-    """Whether something is a pandas.DataFrame or looks like one."""
+    """Whether a table is a pandas.DataFrame or similar."""
     return hasattr(table, "columns") and hasattr(table, "itertuples")
 
 
 def ranges_of(table: Mapping[str, Sequence[Any]]) -> List[str]:
-    """Values by path as the program takes them after `--vary`."""
+    """Converts values by path to arguments of `--vary`."""
     return [f"{path}={_flow(list(values), path)}" for path, values in table.items()]
 
 
 def write_frame(table: Any, file: PathLike) -> None:
-    """A frame as the table in CSV that the program reads; numbers keep all their digits."""
+    """Writes a DataFrame as a CSV table for the program; numbers keep all digits."""
     columns = [str(column) for column in table.columns]
     if not len(table):
         raise InputError("the table has no variants; give it a row per variant")
@@ -48,17 +48,17 @@ def write_frame(table: Any, file: PathLike) -> None:
 
 
 def table_of(table: TableLike, folder: pathlib.Path) -> VariantTable:
-    """The variants of any kind of table.
+    """Returns the variants of any kind of table.
 
     Parameters
     ----------
     folder
-        For the file in which a frame is handed to the library.
+        Folder for the file that passes a DataFrame to the library.
 
     Raises
     ------
     InputError
-        For tables without variants, repeated names and the like.
+        If the table has no variants, repeated names and the like.
     """
     if isinstance(table, Mapping):
         if not table:

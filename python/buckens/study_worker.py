@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What workers of a study do: run variants and note their rows. Factors stay from one task to the next."""
+"""Workers of a study: they run variants and store their rows. Factors are reused by later tasks."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Variant = Tuple[str, List[str]]
 
 
 class Study(NamedTuple):
-    """All that the tasks of a study have in common."""
+    """Data common to all tasks of a study."""
 
     version: str
     name: str          # hash of model and changes
@@ -30,7 +30,7 @@ class Study(NamedTuple):
 
 
 class Task(NamedTuple):
-    """Variants that one worker runs one wave after the other; variants of a wave advance side by side."""
+    """Waves that one worker runs in sequence; the variants of a wave advance together."""
 
     name: str
     group: int
@@ -38,7 +38,7 @@ class Task(NamedTuple):
 
 
 class Done(NamedTuple):
-    """What comes back: all rows, and which of them are not on the disk yet."""
+    """The result of a task: all rows, and keys of those that are not on disk."""
 
     rows: List[Dict[str, Any]]
     unkept: List[str]
@@ -51,7 +51,7 @@ _here = threading.local()  # a worker process may have several threads
 
 
 def run_task(study: Study, task: Task) -> Done:
-    """Runs the variants of a task that no earlier worker has finished."""
+    """Runs those variants of a task that no earlier worker has finished."""
     start = time.perf_counter()
     journal = TaskJournal(pathlib.Path(study.out) / FOLDER, study.name, task.name)
     rows = journal.finished()
@@ -83,7 +83,7 @@ def source_hash(source: str) -> str:
 
 
 def _runner(study: Study, group: int) -> _core.VariantRows:
-    """That of the last task if it was of the same study."""
+    """Returns the runner of the previous task if it belongs to the same study, else a new one."""
     kept = getattr(_here, "kept", None)
     if kept is not None and kept[0] == study:
         runner: _core.VariantRows = kept[1]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Executors of any kind as the workers of a study: who they are, how many, and what their loss looks like."""
+"""Executors of any kind as the workers of a study: their creation, number and failure."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from typing import Any, Callable, Optional, Union
 
 from .errors import Error, InputError, IoError
 
-#: Number of processes here, an executor, a Client of Dask, or a function that makes an executor.
+#: A number of local processes, an executor, a Dask Client, or a function that creates an executor.
 ExecutorLike = Union[int, "cf.Executor", Callable[[], Any], Any]
 
 _PATIENCE = 60.0  # for a scheduler that does not answer [s]
 
 
 class Workers:
-    """Hands work to an executor, and gets another one where that is possible if it breaks."""
+    """Submits work to an executor, and replaces a broken one where possible."""
 
     def __init__(self, executor: ExecutorLike, count: Optional[int] = None) -> None:
         self._make: Optional[Callable[[], Any]] = None
@@ -50,7 +50,7 @@ class Workers:
 
     @property
     def count(self) -> int:
-        """Tasks that run at the same time, as far as it is known."""
+        """Number of tasks that run in parallel, as far as known."""
         if self._asked:
             return self._asked
         if self._client is not None:
@@ -60,7 +60,7 @@ class Workers:
         return int(known) if known else os.cpu_count() or 1
 
     def _ask_scheduler(self) -> None:
-        """How many threads there are now; what was known before while the scheduler does not answer."""
+        """Updates the number of threads; keeps the last known one while the scheduler does not answer."""
         now = time.monotonic()
         if now < self._next_question:
             return
@@ -74,12 +74,12 @@ class Workers:
                 pass
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> "cf.Future[Any]":
-        """As the executor does; one that has broken is replaced first.
+        """Submits a call; replaces a broken executor first.
 
         Raises
         ------
         IoError
-            If there is none any more.
+            If no executor is left.
         """
         self._await_scheduler()
         deadline = time.monotonic() + _PATIENCE
@@ -94,14 +94,14 @@ class Workers:
                 time.sleep(0.1)
 
     def check(self) -> None:
-        """To be called while nothing comes back; raises IoError if nothing will."""
+        """Call this while no results arrive; raises IoError if none can arrive."""
         if self._client is not None and self._client.status == "closed":
             raise _no_more_work("the connection to the Dask scheduler was lost")
         if self._client is not None:
             self._ask_scheduler()
 
     def _await_scheduler(self) -> None:
-        """Work for a scheduler that is not there would never come back; it may be started again meanwhile."""
+        """Waits for the scheduler, which may be restarted; work submitted without it would be lost."""
         deadline = time.monotonic() + _PATIENCE
         while self._client is not None and self._client.status != "running":
             self._next_question = 0.0  # it may be another one then
@@ -117,7 +117,7 @@ class Workers:
         self._executor = self._make()
 
     def close(self, is_hurried: bool) -> None:
-        """Ends an executor that was made here."""
+        """Shuts down an executor that was created here."""
         if self._is_own:
             self._executor.shutdown(wait=not is_hurried, cancel_futures=True)
 
@@ -127,7 +127,7 @@ def _no_more_work(reason: str) -> IoError:
 
 
 def is_loss(future: "cf.Future[Any]") -> bool:
-    """Whether a task ended because its worker or its scheduler did, and not by an error of its own."""
+    """Whether a task failed because its worker or scheduler was lost, not by its own error."""
     if future.cancelled():
         return True
     error = future.exception()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whole runs by the program, with what only it offers: error statements, kept factors, continuation."""
+"""Complete runs by the program, with error statements, saved factors and continuation."""
 
 from __future__ import annotations
 
@@ -15,37 +15,37 @@ def run(model: ModelLike, out: PathLike, set: Overrides = None, *, error: bool =
         threads: Optional[int] = None, factors: Optional[PathLike] = None,
         save_state: Optional[PathLike] = None, save_state_at: Optional[float] = None,
         start_from: Optional[PathLike] = None) -> Dict[str, Any]:
-    """Simulates a model from start to end in a process of its own.
+    """Simulates a model from start to end in a separate process.
 
-    To look at a run or to act on it between steps, use :class:`buckens.Simulation`, which also calls functions.
+    To inspect or influence a run between steps, or to use Python functions, use :class:`buckens.Simulation`.
 
     Parameters
     ----------
     out
-        Directory for results, see :func:`buckens.open`. An earlier run in it is replaced.
+        Directory for results, see :func:`buckens.open`. An existing run in it is replaced.
     error
-        Repeats the run with one thing improved at a time and states how far each sensor may be off, under
-        ``["errors"]["sensors"]``; takes several times as long. Such a run cannot be continued.
+        Repeats the run with one refinement at a time and estimates the uncertainty of each sensor, in
+        ``["errors"]["sensors"]``. This takes several times as long, and the run cannot be continued.
     threads
-        That advance bodies at the same time, 1 if not given. Results are the same to the last bit.
+        Number of threads that advance bodies in parallel, 1 by default. Results are bit-identical.
     factors
-        Folder in which large factors are kept and looked for, so that later runs need not compute them.
+        Folder in which large factors are stored, so that later runs can reuse them.
     save_state, save_state_at
-        A file for the state at the end, or at the end of the step that reaches ``save_state_at`` [s].
+        File for the final state, or the state after the step that reaches ``save_state_at`` [s].
     start_from
-        A file of ``save_state`` or :meth:`buckens.Simulation.save` from which to go on, bit for bit.
+        File from ``save_state`` or :meth:`buckens.Simulation.save` to continue from, with bit-identical results.
 
     Returns
     -------
     dict
-        The summary, as summary.json of the run directory.
+        The summary, as in summary.json of the run directory.
 
     Raises
     ------
     NumericalError
-        If a step fails; the results up to it are kept, and :func:`buckens.continue_run` goes on with another step.
+        If a step fails. Results so far are kept, and :func:`buckens.continue_run` can continue with another step size.
     KeyboardInterrupt
-        After Ctrl-C, once the files are complete; :func:`buckens.continue_run` goes on.
+        After Ctrl-C, once the files are complete; :func:`buckens.continue_run` continues the run.
     """
     try:
         with file_of(model) as path:
@@ -60,31 +60,31 @@ def run(model: ModelLike, out: PathLike, set: Overrides = None, *, error: bool =
 def continue_run(out: PathLike, until: Optional[float] = None, set: Overrides = None, *,  # noqa: A002
                  threads: Optional[int] = None, factors: Optional[PathLike] = None,
                  save_state: Optional[PathLike] = None, save_state_at: Optional[float] = None) -> Dict[str, Any]:
-    """Goes on with the run of the program in a directory where its last checkpoint is.
+    """Continues a run of the program from its last checkpoint.
 
-    The results are those of a run that nobody interrupted, bit for bit. Checkpoints are written by :func:`buckens.run` and
-    the program; a :class:`buckens.Simulation` goes on from what its ``save`` has written, by its ``resume``.
+    Results are bit-identical with those of an uninterrupted run. Checkpoints are written by :func:`buckens.run` and
+    the program; for :class:`buckens.Simulation` use its ``save`` and ``resume``.
 
     Parameters
     ----------
     out
-        The directory of the run.
+        Directory of the run.
     until
-        Another end of the run [s], also of one that is finished.
+        New end of the run [s]; a finished run can be extended.
     set
-        ``simulation.step`` and ``simulation.tolerance`` may change, after a step that failed.
+        Changes to ``simulation.step`` and ``simulation.tolerance``, after a step that failed.
     threads, factors, save_state, save_state_at
-        As of :func:`buckens.run`.
+        As for :func:`buckens.run`.
 
     Returns
     -------
     dict
-        The summary of the whole run.
+        The summary of the complete run.
 
     Raises
     ------
     InputError
-        If there is nothing to continue, or the model, its files or the version are others, saying what differs.
+        If there is nothing to continue, or if the model, its files or the version differ, naming the difference.
     """
     return call("run", options_of(**{"continue": out}, until=until, threads=threads, factors=factors,
                                   save_state=save_state, save_state_at=save_state_at) + changes_of(set))

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The program's verbs as functions, with its options and what `--json` prints.
+"""The program's commands as functions, with its options and the output of `--json`.
 
-The dictionaries are described in docs/reference/command-line.md. A model is a :class:`buckens.Model`
-or the name of a model file.
+docs/reference/command-line.md describes the dictionaries. A model is a :class:`buckens.Model` or the name of a
+model file.
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ Quantity = Union[str, float]
 
 def check(model: ModelLike, set: Overrides = None, *, view: bool = False,  # noqa: A002
           page: Optional[PathLike] = None, open: bool = False) -> Dict[str, Any]:  # noqa: A002
-    """What is known of a model without running it: masses, frequencies, joints, degrees of freedom.
+    """Analyses a model without running it: masses, frequencies, joints, degrees of freedom.
 
     Parameters
     ----------
     view
-        Also writes a page that shows the assembled model, in the current directory: ``crank.html`` for
-        ``crank.yaml``, ``model.html`` for a :class:`buckens.Model`.
+        Also writes a page of the assembled model to the current directory: ``crank.html`` for ``crank.yaml``,
+        ``model.html`` for a :class:`buckens.Model`.
     page
-        The same into this file.
+        Writes the page to this file.
     open
-        The same, and opens it in the browser.
+        Also opens the page in the browser.
     """
     with file_of(model) as path:
         return call("check", [path, *options_of(view=view, out=page, open=open), *changes_of(set)])
@@ -46,23 +46,23 @@ def modes(model: ModelLike, body: Optional[str] = None, system: bool = False,
           tolerance: Optional[float] = None, condition: bool = False,
           out: Optional[PathLike] = None, set: Overrides = None, *,  # noqa: A002
           threads: Optional[int] = None) -> Dict[str, Any]:
-    """Undamped vibrations of free bodies, or with ``system`` of the joined ones.
+    """Computes undamped vibrations of free bodies or, with ``system``, of the assembled system.
 
     Parameters
     ----------
     body
-        Only this one of the free bodies.
+        Analyses only this free body.
     count
-        Modes wanted, 10 if not given.
+        Number of modes, 10 by default.
     about
-        With ``system``: the position, "initial" or "static".
+        With ``system``: the reference position, "initial" or "static".
     method, tolerance, condition
-        Of free vibrations: how they are computed, the relative error of the shapes, and whether the
-        condition number of the factored matrix is estimated.
+        For free vibrations: the method, the relative error of the mode shapes, and whether to estimate the
+        condition number of the factorised matrix.
     out
-        Directory for the shapes, for :func:`buckens.view`.
+        Directory for the mode shapes, for :func:`buckens.view`.
     threads
-        That share large bodies, 1 if not given. Results are the same to the last bit.
+        Number of threads for large bodies, 1 by default. Results are bit-identical.
 
     Returns
     -------
@@ -76,7 +76,7 @@ def modes(model: ModelLike, body: Optional[str] = None, system: bool = False,
 
 
 def static(model: ModelLike, out: PathLike, set: Overrides = None) -> Dict[str, Any]:  # noqa: A002
-    """Equilibria over a load factor; results go to a run directory, see :func:`buckens.open`."""
+    """Computes equilibria over a load factor and writes a run directory, see :func:`buckens.open`."""
     with file_of(model) as path:
         return call("static", [path, *options_of(out=out), *changes_of(set)])
 
@@ -86,38 +86,38 @@ def sweep(model: ModelLike, table: TableLike, out: PathLike, together: Optional[
           workers: Optional[int] = None, *, shard: Optional[Tuple[int, int]] = None) -> Dict[str, Any]:
     """Runs variants of a model.
 
-    Without an executor the program runs them here, each into a directory below ``out``. With one they are
-    handed to its workers, which keep no directories, only the rows of the table; see docs/tutorials/studies.md.
+    Without an executor the program runs them on this machine, each in a directory under ``out``. With an executor
+    its workers run them and keep only the rows of the table, no directories; see docs/tutorials/studies.md.
 
     Parameters
     ----------
     table
-        A CSV file with a row per variant, a pandas.DataFrame, or values by path, of which all combinations
+        A CSV file with a row per variant, a pandas.DataFrame, or values by path, all combinations of which
         are run: ``{"bodies.rod.beam.elements": [4, 8, 16]}``.
     together
-        Variants that advance side by side.
+        Number of variants that advance together.
     executor
-        Who runs them: a number of processes, an executor of concurrent.futures or mpi4py.futures, a Client
-        of Dask, or a function that makes an executor, which is then replaced if it loses a process.
+        A number of processes, an executor of concurrent.futures or mpi4py.futures, a Dask Client, or a function
+        that creates an executor, which is then replaced if it loses a process.
     progress
-        True: lines on the standard error stream; a function: called with a :class:`buckens.study.Progress`.
+        True prints lines on the standard error stream; a function is called with a :class:`buckens.study.Progress`.
     workers
-        How many there are, where the executor does not tell.
+        Number of workers, if the executor does not report it.
     shard
-        (i, n): only the i-th of n parts of the variants, counted from 1, as tasks of a job array run them;
-        :func:`buckens.merge_sweep` joins the parts. Not with an executor, which shares them out itself.
+        (i, n): runs only part i of n, counted from 1, as a task of a job array; :func:`buckens.merge_sweep` joins
+        the parts. Not with an executor, which distributes the variants itself.
 
     Returns
     -------
     dict
-        ``["table"]`` is the table in CSV, ``["variants"]`` a list with ``name``, ``status`` and, of those that
-        failed, ``message``.
+        ``["table"]`` is the path of the CSV table, ``["variants"]`` a list with ``name``, ``status`` and, for
+        failed variants, ``message``.
 
     Raises
     ------
     InputError, IoError
-        For what concerns all variants: a bad table, a model that a worker cannot see, workers of other
-        versions. The same call later keeps what is finished.
+        If something affects all variants: an invalid table, a model that a worker cannot read, or workers of other
+        versions. Repeating the call keeps finished variants.
     """
     part = None if shard is None else _shard(shard)
     if executor is not None:
@@ -139,7 +139,7 @@ def sweep(model: ModelLike, table: TableLike, out: PathLike, together: Optional[
 
 
 def _shard(shard: Tuple[int, int]) -> str:
-    """I/N; what the two may be says the program."""
+    """Returns I/N; the program checks the numbers."""
     if len(shard) != 2 or not all(isinstance(number, int) for number in shard):
         raise InputError(f"shard: expected two whole numbers, the part and how many there are, found {shard!r}; "
                          "(1, 4) is the first of four")
@@ -147,37 +147,37 @@ def _shard(shard: Tuple[int, int]) -> str:
 
 
 def merge_sweep(out: PathLike) -> Dict[str, Any]:
-    """Joins the parts of a sweep that was run in shards into ``out``/sweep.csv and sweep.h5.
+    """Joins the shards of a sweep into ``out``/sweep.csv and sweep.h5.
 
     Returns
     -------
     dict
-        As :func:`buckens.sweep`.
+        As for :func:`buckens.sweep`.
 
     Raises
     ------
     InputError
-        While shards are missing, or if parts belong to different models, tables, versions or numbers of shards.
+        If shards are missing, or belong to different models, tables, versions or numbers of shards.
     """
     return call("sweep", options_of(merge=out))
 
 
 def sweep_status(out: PathLike) -> Dict[str, Any]:
-    """How far a sweep of the program or its shards are, from any process that sees the directory.
+    """Returns the progress of a sweep or its shards, from any process that can read the directory.
 
-    Of a sweep with an executor tells :func:`buckens.study.status`.
+    For a sweep with an executor use :func:`buckens.study.status`.
 
     Returns
     -------
     dict
-        ``variants``, ``finished``, ``failed`` and ``running`` are counts, ``to_go`` is in s, ``shards`` a list.
+        ``variants``, ``finished``, ``failed`` and ``running`` are counts, ``to_go`` is in seconds, ``shards`` is a list.
     """
     return call("sweep", options_of(status=out))
 
 
 def compare(first: PathLike, second: PathLike, tolerance: Optional[float] = None,
             sensors: bool = False) -> Dict[str, Any]:
-    """How far two runs differ.
+    """Compares two runs.
 
     Raises
     ------
@@ -198,7 +198,7 @@ def _mesh_options(length_unit: Optional[str], mass_unit: Optional[str], only: Se
 def mesh_info(file: PathLike, length_unit: Optional[str] = None, mass_unit: Optional[str] = None,
               only: Sequence[str] = (), skip: Sequence[str] = (), size: Optional[Quantity] = None,
               order: Optional[int] = None, solid: Optional[str] = None) -> Dict[str, Any]:
-    """What a mesh file contains, in SI units."""
+    """Returns the contents of a mesh file, in SI units."""
     return call("mesh-info", [os.fspath(file), *_mesh_options(length_unit, mass_unit, only, skip,
                                                               size, order, solid)])
 
@@ -207,7 +207,7 @@ def convert(file: PathLike, out: PathLike, length_unit: Optional[str] = None,
             mass_unit: Optional[str] = None, only: Sequence[str] = (), skip: Sequence[str] = (),
             size: Optional[Quantity] = None, order: Optional[int] = None, solid: Optional[str] = None,
             msh_version: Optional[str] = None, binary: bool = False) -> Dict[str, Any]:
-    """Writes a mesh as .msh with a model file, or as .vtu."""
+    """Converts a mesh to .msh with a model file, or to .vtu."""
     return call("convert", [os.fspath(file), os.fspath(out),
                             *_mesh_options(length_unit, mass_unit, only, skip, size, order, solid),
                             *options_of(msh_version=msh_version, binary=binary)])
@@ -216,45 +216,45 @@ def convert(file: PathLike, out: PathLike, length_unit: Optional[str] = None,
 def view(run: PathLike, page: Optional[PathLike] = None, frames: Optional[int] = None,
          second: Optional[PathLike] = None, *, fields: Sequence[str] = (), max_size: Optional[int] = None,
          open: bool = False) -> Dict[str, Any]:  # noqa: A002
-    """Writes a page for the browser that shows a run; ``["page"]`` says where.
+    """Writes a page that shows a run; ``["page"]`` is its path.
 
-    A page that follows a run while it goes on: :func:`buckens.view_live`.
+    For a page that follows a run in progress use :func:`buckens.view_live`.
 
     Parameters
     ----------
     run
-        Directory of a run, or of :func:`buckens.modes` with ``out``.
+        Directory of a run, or ``out`` of :func:`buckens.modes`.
     page
-        The file, view.html in ``run`` if not given.
+        File name, by default view.html in ``run``.
     frames
-        Most frames in the page, 2000 if not given.
+        Maximum number of frames, 2000 by default.
     second
-        Directory of another run, shown beside it.
+        Directory of another run, shown side by side.
     fields
-        Only these: "von_mises", "stress"; without it all. Names that were not recorded give a warning.
+        Fields to include, such as "von_mises" or "stress"; by default all. Fields that were not recorded cause a warning.
     max_size
-        Most numbers in the page [MiB], 64 if not given; fewer frames are taken to keep it.
+        Maximum size of the data [MiB], 64 by default; frames are skipped to keep to it.
     open
-        Opens it in the browser.
+        Opens the page in the browser.
     """
     return call("view", [*_runs(run, second), *options_of(out=page, open=open), *_page(frames, fields, max_size)])
 
 
 def view_live(run: PathLike, second: Optional[PathLike] = None, *, frames: Optional[int] = None,
               fields: Sequence[str] = (), max_size: Optional[int] = None, open: bool = False) -> LivePage:  # noqa: A002
-    """Serves the page of a run on this machine and renews it while the run goes on.
+    """Serves the page of a run on this machine and updates it during the run.
 
     Parameters
     ----------
     second, frames, fields, max_size
-        As of :func:`buckens.view`.
+        As for :func:`buckens.view`.
     open
-        Opens it in the browser.
+        Opens the page in the browser.
 
     Returns
     -------
     LivePage
-        ``.address`` is for the browser; ``.close()`` or the end of a ``with`` block ends it.
+        ``.address`` is the URL; ``.close()`` or the end of a ``with`` block stops serving.
     """
     page = LivePage([*_runs(run, second), *_page(frames, fields, max_size)])
     if open:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Dictionaries as the text of a model file."""
+"""Converts dictionaries to the text of a model file."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ _WORDS = {"true", "false", "yes", "no", "on", "off", "null", "y", "n"}
 
 
 def to_yaml(tree: Mapping[str, Any], files: Optional[ModelFiles] = None) -> str:
-    """The text of a model file with the contents of a dictionary.
+    """Returns the contents of a dictionary as the text of a model file.
 
     Parameters
     ----------
     tree
-        Keys as in a model file. Values: numbers (SI), texts with units, arrays, lists, dictionaries,
-        and paths of files. Entries that are None are left out.
+        Keys as in a model file. Values are numbers (SI), strings with units, arrays, lists, dictionaries
+        or file paths. Entries that are None are omitted.
     files
-        Takes what has to be a file, such as a :class:`buckens.ArrayMesh`; its name stands in the text.
+        Stores values that must be files, such as a :class:`buckens.ArrayMesh`; the text contains their names.
 
     Raises
     ------
     InputError
-        For values of other types, naming the path of the key.
+        If a value has another type, naming the path of the key.
     """
     lines: List[str] = []
     _write_map(tree, "", "", lines, files)
@@ -58,7 +58,7 @@ def _write_map(tree: Mapping[str, Any], indent: str, path: str, lines: List[str]
 
 
 def _plain(value: Any, place: str, files: Optional[ModelFiles]) -> Any:
-    """A value as text, number, list or dictionary."""
+    """Converts a value to a string, number, list or dictionary."""
     if files is not None:
         name = files.name_of(value, place)
         if name is not None:
@@ -80,7 +80,7 @@ def _plain(value: Any, place: str, files: Optional[ModelFiles]) -> Any:
 
 
 def _flow(value: Any, place: str, files: Optional[ModelFiles] = None) -> str:
-    """A value in one line."""
+    """Returns a value as one line of YAML."""
     value = _plain(value, place, files)
     if isinstance(value, Mapping):
         parts = []
