@@ -11,24 +11,24 @@
 
 namespace buckens::base {
 
-/// The force of a spring and damper by displacement x and rate v: a formula of both or a table of
-/// the displacement.
+/// Force of a spring and damper as a function of displacement x and rate v: a formula in both, or
+/// a table over the displacement.
 ///
-/// Copies share what they are made of. Evaluation is const and may run in several threads at once.
+/// Copies share their data. Evaluation is const and may run in several threads at once.
 class Characteristic {
  public:
   /// Zero everywhere.
   Characteristic() = default;
   /// @param expression in two variables: displacement and rate. @param scale SI value of its unit
   static Characteristic formula(Expression expression, double scale);
-  /// @param table force over displacement in place of time
+  /// @param table force over displacement, instead of time
   static Characteristic table(TimeLaw table);
 
-  /// f(x, v). @throws NumericalError outside of a table, or where the formula has no value
+  /// f(x, v). @throws NumericalError outside a table, or where the formula has no value
   double force(double x, double v) const;
-  /// ∫ f(s, 0) ds from 0 to x: the energy stored.
+  /// ∫ f(s, 0) ds from 0 to x: the stored energy.
   double energy(double x) const;
-  /// ∂f/∂x and ∂f/∂v by differences, good for the tangent of an iteration.
+  /// ∂f/∂x and ∂f/∂v by finite differences, accurate enough for the tangent of an iteration.
   struct Slopes {
     double stiffness = 0, damping = 0;
   };

@@ -8,7 +8,7 @@
 
 namespace buckens::base {
 
-/// A coordinate of a joint by its name: `which` of laws, sensors, signals and couplers.
+/// A joint coordinate by name: `which` of laws, sensors, signals and couplers.
 enum class CoordinateChoice { angle, displacement, second_angle, x, y, z, swing, twist };
 
 inline constexpr std::size_t kNumCoordinateChoices = 8;
@@ -17,7 +17,7 @@ constexpr std::array<const char*, kNumCoordinateChoices> choice_names(Coordinate
   return {"angle", "displacement", "second-angle", "x", "y", "z", "swing", "twist"};
 }
 
-/// What there is to say about a coordinate without knowing its joint.
+/// Properties of a coordinate that do not depend on its joint.
 struct CoordinateName {
   CoordinateChoice which;
   bool is_angle;         ///< [rad], or a displacement [m]
@@ -41,16 +41,16 @@ constexpr const CoordinateName& name_of(CoordinateChoice which) {
   return kCoordinateNames[static_cast<std::size_t>(which)];
 }
 
-/// Which coordinates of a joint a user takes.
+/// The joint coordinates that an element accepts.
 enum class CoordinateSort { any, angles, displacements };
 
 constexpr bool is_of(CoordinateChoice which, CoordinateSort sort) {
   return sort == CoordinateSort::any || name_of(which).is_angle == (sort == CoordinateSort::angles);
 }
 
-/// The coordinate that a user means: the one asked for; else the angle, the displacement, or the
-/// only one of its sort.
-/// @param offered by the joint. @return none if there is none, or more than one
+/// Selects a coordinate: the requested one; otherwise the angle, the displacement, or the only one
+/// of its type.
+/// @param offered coordinates of the joint. @return nothing if there is none, or more than one
 constexpr std::optional<CoordinateChoice> meant(std::span<const CoordinateChoice> offered,
                                                 std::optional<CoordinateChoice> asked,
                                                 CoordinateSort sort) {

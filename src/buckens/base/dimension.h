@@ -7,8 +7,8 @@ namespace buckens::base {
 
 /// Physical dimension as exponents of length, mass, time and angle.
 ///
-/// Angle is a dimension of its own so that degrees, rpm and hertz cannot be confused; see
-/// accepts() for where a missing radian does not matter.
+/// Angle is a separate dimension, so that degrees, rpm and hertz cannot be confused; accepts()
+/// states where a missing radian does not matter.
 struct Dimension {
   int length = 0;
   int mass = 0;
@@ -58,7 +58,7 @@ constexpr bool accepts(const Dimension& expected, const Dimension& given) {
 /// SI unit as printed in messages: "kg m^2", "N/m", "rad/s"; empty for pure numbers.
 std::string si_unit(const Dimension& dimension);
 
-/// What users call it: "a length", "a force"; "a quantity in kg m" where there is no name.
+/// Name for messages: "a length", "a force"; "a quantity in kg m" if there is no name.
 std::string dimension_name(const Dimension& dimension);
 
 }  // namespace buckens::base

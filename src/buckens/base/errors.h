@@ -8,19 +8,19 @@
 
 namespace buckens {
 
-/// Base of all exceptions the library throws. Messages say what is wrong, where, the value, and
-/// what to do about it.
+/// Base class of all exceptions that the library throws. Messages state the error, its location,
+/// the value and a remedy.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message) : std::runtime_error(message) {}
-  /// Puts "file:line:column: " before the message if the place is known.
+  /// Prefixes the message with "file:line:column: " if the location is known.
   Error(const SourceLocation& where, const std::string& message)
       : std::runtime_error(where.empty() ? message : where.text() + ": " + message),
         where_(where) {}
 
-  /// Empty if the place is not known.
+  /// Empty if the location is not known.
   const SourceLocation& where() const { return where_; }
-  /// The message without the place, for building longer messages.
+  /// The message without the location, for composing longer messages.
   std::string text() const {
     return where_.empty() ? what() : std::string(what()).substr(where_.text().size() + 2);
   }
@@ -34,12 +34,12 @@ class InputError : public Error {
   using Error::Error;
 };
 
-/// The input can be read but the mechanism it describes cannot be built or solved.
+/// The input is valid, but the mechanism that it describes cannot be built or solved.
 class ModelError : public Error {
   using Error::Error;
 };
 
-/// A calculation failed on the way: no convergence, not a number, a singular matrix.
+/// A calculation failed: no convergence, a value that is not finite, or a singular matrix.
 class NumericalError : public Error {
   using Error::Error;
 };
@@ -49,12 +49,12 @@ class IoError : public Error {
   using Error::Error;
 };
 
-/// Throws std::logic_error with the place and text of a violated assertion.
+/// Throws std::logic_error with the location and text of a violated assertion.
 [[noreturn]] void assertion_failed(const char* expression, const char* file, int line);
 
 }  // namespace buckens
 
-/// For bugs in this library, never for user errors: checked in builds with assertions.
+/// For bugs in the library, never for user errors; checked in builds with assertions.
 #ifdef BUCKENS_ASSERTIONS
 #define BUCKENS_ASSERT(condition)         \
   (static_cast<bool>(condition) ? void(0) \

@@ -21,12 +21,12 @@ using Parameters = std::map<std::string, double>;
 /// evaluation is const and may run in several threads at once.
 class Expression {
  public:
-  /// The number zero.
+  /// The constant zero.
   Expression() = default;
 
   /// @param text formula without a unit
   /// @param variables names in the order in which operator() takes their values
-  /// @param where place for messages; its column is that of the first character of `text`
+  /// @param where location for messages; its column is that of the first character of `text`
   /// @throws InputError on syntax errors, unknown names (with the nearest known one), and formulas
   ///         without variables whose value is not finite
   Expression(const std::string& text, const std::vector<std::string>& variables,
@@ -36,10 +36,10 @@ class Expression {
   ///         is not finite
   double operator()(std::initializer_list<double> values) const;
 
-  /// The same, but returns infinities and NaNs as they are.
+  /// The same, but returns infinities and NaNs unchanged.
   double unchecked(std::initializer_list<double> values) const;
 
-  /// True if it contains no variable.
+  /// True if the formula contains no variable.
   bool is_constant() const;
   const std::string& text() const;
   const SourceLocation& where() const;
@@ -52,8 +52,8 @@ class Expression {
 /// True if `name` can be a parameter: letters, digits and _, not starting with a digit.
 bool is_identifier(const std::string& name);
 
-/// Functions and constants available in every expression, and the variables t, x, y, z: names that
-/// parameters cannot have.
+/// Reserved names: the functions and constants available in every expression, and the variables
+/// t, x, y and z. Parameters cannot have them.
 const std::vector<std::string>& reserved_names();
 
 }  // namespace buckens::base

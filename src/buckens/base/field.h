@@ -10,10 +10,10 @@
 
 namespace buckens::base {
 
-/// Which numbers a field takes.
+/// Numbers that a field accepts.
 enum class Range { any, positive, non_negative, fraction /* 0 … 1 */, poisson /* −1 … ½ */ };
 
-/// What a field list says about a field besides its member.
+/// Properties of a field besides its member.
 struct FieldNote {
   std::string name;  ///< key in the model file; empty: the value replaces the struct
   std::string doc;   ///< one sentence
@@ -66,14 +66,14 @@ Field field(const char* name, T& member, const char* doc) {
   return field_of(member_of(member), name, doc);
 }
 
-/// The value replaces the struct: a variant's alternatives become keys next to the other
-/// fields (exactly one of them), any other member is the struct's whole content.
+/// The value replaces the struct: the alternatives of a variant become keys next to the other
+/// fields (exactly one of them); any other member is the whole content of the struct.
 template <class T>
 Field inlined(T& member, std::string doc) {
   return field_of(member_of(member), "", std::move(doc));
 }
 
-/// Something given either by the name of an entry elsewhere or written out in place.
+/// A value given either by the name of an entry elsewhere or in place.
 template <class T>
 struct Reference {
   std::string name;  ///< empty if written in place

@@ -8,11 +8,11 @@ namespace buckens::base {
 
 enum class LogLevel { debug, info, warning, error };
 
-/// Receives the library's messages; called under a lock, so it must not log itself.
+/// Receives the library's messages. It is called under a lock, so it must not log.
 using LogSink = std::function<void(LogLevel level, const std::string& message)>;
 
-/// Sets where messages go, for the whole process; an empty sink (the default) drops them. The
-/// library itself never prints. May be called from any thread.
+/// Sets the receiver of messages for the whole process; an empty sink (the default) discards them.
+/// The library itself never prints. May be called from any thread.
 void set_log_sink(LogSink sink);
 
 void log(LogLevel level, const std::string& message);

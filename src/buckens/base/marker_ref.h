@@ -10,10 +10,10 @@
 
 namespace buckens::base {
 
-/// Name of a marker as the model file writes it: "ground", "rod", "rod/end", {ground: [x, y, z]}.
+/// Name of a marker as in a model file: "ground", "rod", "rod/end", {ground: [x, y, z]}.
 struct MarkerRef {
   std::string body;  ///< "ground" or the name of a body
-  /// What follows the slash; empty means the body's frame (its mass centre). "origin", "com",
+  /// The part after the slash; empty means the body frame (its mass centre). "origin", "com",
   /// "start", "mid" and "end" are predefined, followed by the body's nodes and markers.
   std::string marker;
   std::optional<Eigen::Vector3d> point;  ///< on the ground: place in the world [m]

@@ -14,21 +14,21 @@ namespace buckens::base {
 class MemberType;
 struct Field;
 
-/// A member of a spec whose type is known only while the program runs.
+/// A member of a spec whose type is known only at run time.
 ///
-/// What walks through field lists (reader, checks, schema, comparison) is written once for members,
-/// and not compiled anew for every spec. Who has a Member of a constant spec must not change it.
+/// Code that visits field lists (reader, checks, schema, comparison) is written once for members
+/// and not compiled for every spec. A Member of a constant spec must not be modified.
 struct Member {
   void* at = nullptr;
   const MemberType* type = nullptr;
 
-  /// The member itself if it is a T, or null.
+  /// The member itself if it is a T, otherwise null.
   template <class T>
   T* get() const;
 
-  /// What an optional, a reference, an array, a list or a variant holds.
+  /// The contents of an optional, a reference, an array, a list or a variant.
   std::vector<Member> parts() const;
-  /// The lines of a record's field list.
+  /// The entries of a record's field list.
   std::vector<Field> fields() const;
 };
 
@@ -38,7 +38,7 @@ struct AlternativeNote {
   const MemberType* type = nullptr;
 };
 
-/// What can be done with members of one type. Which functions make sense depends on the form; the
+/// Operations on members of one type. The form determines which functions are supported; the
 /// others throw std::logic_error. A member is given by its address.
 class MemberType {
  public:
@@ -64,15 +64,15 @@ class MemberType {
   virtual std::size_t size(const void* member) const;
   virtual Member part(void* member, std::size_t k) const;
   virtual const MemberType& part_type() const;  ///< not of a variant
-  /// Makes a new part: of a list, behind the others; of a variant, as alternative k.
+  /// Creates a new part: of a list, at its end; of a variant, as alternative k.
   virtual Member add(void* member, std::size_t k = 0) const;
-  /// Adds `part` to a list, and leaves it moved from.
+  /// Moves `part` to the end of a list.
   virtual void take(void* list, void* part) const;
   virtual void clear(void* list) const;
   virtual std::vector<AlternativeNote> alternatives() const;
 
   // ---- variant, choice
-  /// Index of the alternative that is held, or of the word that was chosen.
+  /// Index of the current alternative or of the chosen word.
   virtual std::size_t index(const void* member) const;
   virtual std::vector<std::string> choices() const;
   virtual std::vector<std::string> planned() const;  ///< words that are not available yet
@@ -82,10 +82,10 @@ class MemberType {
   std::shared_ptr<void> make() const;
   virtual std::vector<Field> fields(void* record) const;
   bool has_name() const { return name_ != Name::none; }
-  /// Whether names come from another program and may hold any characters.
+  /// Whether names come from another program and may contain any characters.
   bool has_foreign_name() const { return name_ == Name::foreign; }
   virtual SourceLocation* where(void* record) const;  ///< null: keeps no place
-  /// Of a record that has one, or of a reference; null otherwise.
+  /// The name of a record that has one, or of a reference; otherwise null.
   virtual std::string* name(void* member) const;
 
  protected:
@@ -111,8 +111,8 @@ T* Member::get() const {
   return type->is<T>() ? static_cast<T*>(at) : nullptr;
 }
 
-/// The type T as members have it. Defined in member_types.h, which is for the few sources that
-/// begin to walk: it visits the field lists of T and of all below.
+/// The run-time type of T. Defined in member_types.h, which only the few sources that start a visit
+/// include: it visits the field lists of T and of everything in it.
 template <class T>
 const MemberType& type_of();
 

@@ -11,10 +11,10 @@
 #include "buckens/base/field.h"
 #include "buckens/base/member.h"
 
-/// The types of members, made by templates. Only sources that begin a walk need them.
+/// The types of members, as templates. Only sources that start a visit need them.
 namespace buckens::base {
 
-/// What field lists are visited with.
+/// The visitor of field lists.
 struct FieldCollector {
   std::vector<Field> fields;
   void operator()(Field&& field) { fields.push_back(std::move(field)); }
@@ -32,7 +32,7 @@ class ValueType final : public MemberType {
   constexpr ValueType() : MemberType(Form::value, typeid(T)) {}
 };
 
-/// Its words are those of choice_names(T), in the order of its values.
+/// An enumeration; its words are choice_names(T), in the order of its values.
 template <class T>
 class ChoiceType final : public MemberType {
  public:
@@ -173,7 +173,7 @@ class RecordType final : public MemberType {
   void destroy(void* record) const override { delete static_cast<T*>(record); }
 };
 
-/// Which of these templates makes the type T.
+/// Selects the template for the type T.
 template <class T>
 struct TypeOf {
   using Type = std::conditional_t<std::is_enum_v<T>, ChoiceType<T>, ValueType<T>>;

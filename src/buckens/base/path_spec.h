@@ -11,7 +11,7 @@
 
 namespace buckens::base {
 
-/// One piece of a path: a line or an arc to a point.
+/// One segment of a path: a line or an arc to a point.
 struct PathSegmentSpec {
   SourceLocation where;
   std::optional<Eigen::Vector3d> line, arc;        ///< their ends [m]; exactly one is given

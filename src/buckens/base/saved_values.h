@@ -12,7 +12,7 @@
 
 namespace buckens::base {
 
-/// Named lists of numbers and texts: what a saved state consists of. Names are paths,
+/// Named lists of numbers and strings that make up a saved state. Names are paths, such as
 /// "state/bodies/0/d".
 struct SavedValues {
   std::map<std::string, std::vector<double>> numbers;
@@ -22,27 +22,27 @@ struct SavedValues {
   bool operator==(const SavedValues&) const = default;
 };
 
-/// Visits the members of an object to be saved, for writing or reading: each member is named once,
-/// so that the two cannot differ.
+/// Visits the members of an object to save or restore. Each member is named only once, so that
+/// writing and reading cannot differ.
 ///
-/// When restoring, every length and range is checked before anything is changed.
-/// @throws InputError naming the value that is missing or does not fit
+/// When restoring, all lengths and ranges are checked before anything is changed.
+/// @throws InputError naming a value that is missing or invalid
 class SaveVisit {
  public:
   static SaveVisit saving(SavedValues& out) { return {&out, nullptr, ""}; }
   static SaveVisit restoring(const SavedValues& from) { return {nullptr, &from, ""}; }
 
   bool is_restoring() const { return from_ != nullptr; }
-  /// The same, under a name.
+  /// The same, with a name.
   SaveVisit inside(const std::string& name) const;
   SaveVisit inside(std::size_t index) const { return inside(std::to_string(index)); }
 
   void number(const std::string& name, double& value) const;
   void flag(const std::string& name, bool& value) const;
-  /// @param least,most range of the value, inclusive
+  /// @param least,most inclusive range of the value
   void count(const std::string& name, long& value, long least, long most) const;
   void count(const std::string& name, int& value, int least, int most) const;
-  /// As many numbers as there are.
+  /// An array whose length is fixed.
   void numbers(const std::string& name, std::span<double> values) const;
   /// A matrix or vector of fixed size.
   template <int rows, int columns>
@@ -50,14 +50,14 @@ class SaveVisit {
     numbers(name, {value.data(), static_cast<std::size_t>(value.size())});
   }
   void rotation(const std::string& name, Eigen::Quaterniond& q) const;
-  /// A vector that has this size when it is restored.
+  /// A vector that must have this size when restored.
   void vector(const std::string& name, Eigen::VectorXd& value, Eigen::Index size) const;
   /// The same for a vector that may also be empty.
   void vector_or_none(const std::string& name, Eigen::VectorXd& value, Eigen::Index size) const;
   void list(const std::string& name, std::vector<double>& values, std::size_t size) const;
-  /// The same for a list that may also be empty, or hold NaN where there is no value.
+  /// The same for a list that may also be empty, or contain NaN for missing values.
   void list_or_none(const std::string& name, std::vector<double>& values, std::size_t size) const;
-  /// A list of any length. @param least,most range of the entries, inclusive
+  /// A list of any length. @param least,most inclusive range of the entries
   void counts(const std::string& name, std::vector<int>& values, int least, int most) const;
   void counts(const std::string& name, std::vector<long>& values, long least, long most) const;
   /// A list of any length.

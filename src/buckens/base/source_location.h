@@ -5,7 +5,7 @@
 
 namespace buckens {
 
-/// Place in a text file, counted from 1. Line 0 means that only the file is known.
+/// Location in a text file, counted from 1. Line 0 means that only the file is known.
 struct SourceLocation {
   std::string file;  ///< as the user named it; empty where nothing is known
   int line = 0;

@@ -6,7 +6,7 @@
 
 namespace buckens {
 
-/// Threads that sleep until there are tasks to run concurrently.
+/// A pool of threads that sleep until there are tasks to run in parallel.
 ///
 /// run() allocates nothing. Tasks must not depend on which thread runs them, so that results are
 /// the same with any number of threads.
@@ -19,12 +19,12 @@ class TaskPool {
   TaskPool& operator=(const TaskPool&) = delete;
 
   int threads() const;
-  /// Threads that a call of run() from here uses: 1 inside a task. Only so many tasks may wait for
-  /// each other.
+  /// Number of threads that run() uses when called from here: 1 inside a task. No more tasks than
+  /// that may wait for each other.
   int available() const;
 
   /// Runs task(0) … task(count − 1), each once, and returns when all have finished. A call from
-  /// inside a task runs its tasks one after the other.
+  /// inside a task runs its tasks in sequence.
   /// @throws the exception of the task with the lowest number that threw
   template <class Task>
   void run(int count, Task&& task) {
@@ -42,7 +42,7 @@ class TaskPool {
   std::unique_ptr<Shared> shared_;
 };
 
-/// The same without a pool: one after the other.
+/// The same without a pool, in sequence.
 template <class Task>
 void run_tasks(TaskPool* pool, int count, Task&& task) {
   if (pool != nullptr) {

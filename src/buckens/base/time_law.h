@@ -12,29 +12,29 @@
 
 namespace buckens::base {
 
-/// How a table of points becomes a function.
+/// Interpolation of a table of points.
 enum class Interpolation { linear, spline };
 
 constexpr std::array<const char*, 2> choice_names(Interpolation) { return {"linear", "spline"}; }
 
-/// What a table gives outside the range of its times: an error, or its first and last value.
+/// Extrapolation of a table outside its time range: an error, or its first and last value.
 enum class Extrapolation { refuse, hold };
 
 constexpr std::array<const char*, 2> choice_names(Extrapolation) { return {"refuse", "hold"}; }
 
-/// Times for which a law is defined, and where the model file gives it.
+/// Times for which a law is defined, and its location in the model file.
 struct TimeRange {
   double first = 0, last = 0;  ///< [s]
   SourceLocation where;
 };
 
-/// Something that varies with time in a prescribed way: f(t) with its first two derivatives.
+/// A prescribed function of time, f(t), with its first two derivatives.
 ///
-/// Copies are cheap and share their data. Evaluation is const, always gives the same number for the
-/// same time, and may run in several threads at once.
+/// Copies are cheap and share their data. Evaluation is const, always returns the same value for
+/// the same time, and may run in several threads at once.
 class TimeLaw {
  public:
-  /// What a law is made of; see time_law.cpp.
+  /// Contents of a law; see time_law.cpp.
   class Body;
 
   /// Zero at all times.
@@ -65,7 +65,7 @@ class TimeLaw {
   /// quadrature (RunningIntegral); the rate is that law itself and the acceleration its rate.
   static TimeLaw integral(const TimeLaw& rate);
 
-  /// f(t) in SI units.
+  /// Returns f(t) in SI units.
   /// @throws NumericalError naming the expression, its place, t and the value if f(t) is no number;
   ///         naming the table and its range if t lies outside
   double value(double t) const;
@@ -77,14 +77,14 @@ class TimeLaw {
   /// True if the law is constant.
   bool is_constant() const;
 
-  /// Where the rate jumps because a table is linear: the times of its corners. Expressions are not
-  /// searched.
+  /// Times at which the rate jumps: the corners of linear tables.
+  /// Expressions are not searched.
   std::vector<double> corners() const;
 
-  /// Range of a table that refuses times outside it; empty for laws defined at all times.
+  /// Range of a table that refuses times outside it; empty if the law is defined at all times.
   std::optional<TimeRange> range() const;
 
-  /// For messages: the expression, "a table", or the number.
+  /// Description for messages: the expression, "a table", or the number.
   std::string text() const;
 
  private:

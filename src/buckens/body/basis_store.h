@@ -9,19 +9,19 @@
 
 namespace buckens::body {
 
-/// Keeps reduced bases between runs.
+/// Stores reduced bases between runs.
 class BasisStore {
  public:
   virtual ~BasisStore() = default;
   /// The basis stored under a file name; empty if there is none.
   /// @param key of the body and its choice, see basis_key()
-  /// @throws InputError if the contents of the file belong to another key
+  /// @throws InputError if the file belongs to another key
   virtual std::optional<ReducedBasis> find(const std::string& file, std::uint64_t key) = 0;
   virtual void keep(const std::string& file, std::uint64_t key, const ReducedBasis& basis) = 0;
 };
 
-/// Hash of the mass, stiffness, interface rows and inertia integrals of a body, and of the words
-/// that describe the choice of a basis.
+/// Hash of the mass, stiffness, interface rows and inertia integrals of a body, and of the text
+/// that describes the choice of a basis.
 std::uint64_t basis_key(const FlexiblePart& part, const std::string& choice);
 
 }  // namespace buckens::body

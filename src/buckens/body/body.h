@@ -17,22 +17,22 @@
 
 namespace buckens::body {
 
-/// What a reduced body keeps of its mesh.
+/// Properties of a reduction of a body.
 struct ReductionFigures {
   std::string basis;        ///< "free-free", "craig-bampton" or "quasi-static"
   int modes = 0;            ///< vibrations in it
   int static_shapes = 0;    ///< deformations by static loads
   int full_dofs = 0;        ///< nodal variables of the mesh
   double highest_mode = 0;  ///< highest frequency among the vibrations [rad/s]
-  /// Largest fraction of the static interface compliance that the vibrations alone lack, over all
-  /// interface directions; static shapes make up for it. 0 without interface.
+  /// Largest fraction of the static interface compliance that the vibration modes alone miss, over
+  /// all interface directions; static shapes compensate for it. 0 without an interface.
   double static_share = 0;
 };
 
-/// The finite-element share of a body: everything with n rows.
+/// The finite-element part of a body: everything with n rows.
 ///
-/// A reduced body or one with rigid regions is the same thing in other coordinates: `fe` then
-/// holds the projected matrices, and `recovery` maps its coordinates to the nodal variables of
+/// A reduced body, or one with rigid regions, uses the same equations in other coordinates: `fe`
+/// then holds the projected matrices, and `recovery` maps the coordinates to the nodal variables of
 /// mesh().
 struct FlexiblePart {
   fem::FeModel fe;  ///< of the equations of motion
@@ -40,21 +40,21 @@ struct FlexiblePart {
   InertiaInvariants invariants;
   linalg::SymmetricMatrix C;  ///< α M + Σ β K, FM (22); empty pattern where undamped
   CouplingChoice coupling;
-  /// Deforms without inertia of its own: rates of deformation are zero throughout.
+  /// Quasi-static deformation without inertia: rates of deformation are always zero.
   bool is_quasi_static = false;
 
-  /// Set where the coordinates are not the nodal variables, otherwise empty.
+  /// Set if the coordinates are not the nodal variables, otherwise empty.
   std::shared_ptr<const fem::FeModel> full_mesh;
   NodalRecovery recovery;
   ReductionFigures reduction;  ///< of a reduced body
   /// Stiffening by axial forces, empty unless requested.
   std::unique_ptr<const fem::GeometricStiffness> geometric;
 
-  /// Rows y = N d of all markers; the first `num_interface_rows` belong to markers that joints and
-  /// loads use.
+  /// Rows y = N d of all markers; the first `num_interface_rows` belong to markers of joints and
+  /// loads.
   Eigen::SparseMatrix<double, Eigen::RowMajor> rows;
   int num_interface_rows = 0;
-  /// The last of the interface rows: patterns of distributed loads, which no joint holds.
+  /// Number of the last interface rows that are patterns of distributed loads, not held by joints.
   int num_pattern_rows = 0;
 
   SolverChoice solver;  ///< of systems with M, K and C
@@ -64,14 +64,14 @@ struct FlexiblePart {
   FlexiblePart(const FlexiblePart&) = delete;
   FlexiblePart& operator=(const FlexiblePart&) = delete;
 
-  /// Enables stiffening by axial forces of beams and bars.
+  /// Enables stiffening by axial forces in beams and bars.
   void stiffen();
 
   Eigen::Index num_dofs() const { return fe.M.rows(); }
-  /// Interface rows without those of patterns: what a Craig–Bampton basis holds.
+  /// Interface rows without patterns; a Craig–Bampton basis fixes them.
   int num_held_rows() const { return num_interface_rows - num_pattern_rows; }
   bool is_damped() const { return C.nonZeros() > 0; }
-  /// Whether the body is reduced to a basis of vibrations and static shapes.
+  /// Whether the body is reduced to a basis of vibration modes and static shapes.
   bool is_reduced() const { return recovery.is_dense(); }
   /// The mesh with its nodes and elements.
   const fem::FeModel& mesh() const { return full_mesh ? *full_mesh : fe; }
@@ -82,7 +82,7 @@ struct FlexiblePart {
 };
 
 /// A body of the model: a Buckens frame B that carries all large motion and, for flexible bodies, a
-/// mesh that deforms relative to it. A rigid body is the same thing without nodal variables.
+/// mesh that deforms relative to it. A rigid body has no nodal variables.
 ///
 /// B has its origin at the mass centre and axes parallel to the body's model axes.
 class Body {
@@ -95,11 +95,11 @@ class Body {
   /// translations in world axes (3×2…3). Planar models and missing inertia have fewer columns.
   Eigen::Matrix<double, 3, Eigen::Dynamic> rotation_basis;
   Eigen::Matrix<double, 3, Eigen::Dynamic> translation_basis;
-  /// Axes in body axes (3×0…3) about which the frame does not rotate because it has no inertia.
+  /// Axes (3×0…3, body axes) about which the frame does not rotate because it has no inertia.
   Eigen::Matrix<double, 3, Eigen::Dynamic> missing_rotations;
-  /// Substitutes for missing inertia where an iteration needs a regular matrix [kg m²]: about axes
-  /// of `rotation_basis` that have none of their own and are rotated by joints, otherwise zero.
-  /// Results do not depend on it: what it adds is subtracted again in each iteration.
+  /// Substitute for missing inertia where an iteration needs a regular matrix [kg m²]: about axes
+  /// of `rotation_basis` without inertia that joints rotate, otherwise zero. Results do not depend
+  /// on it, because its contribution is subtracted again in each iteration.
   Eigen::Matrix3d stand_in = Eigen::Matrix3d::Zero();
   std::vector<Marker> markers;
   std::shared_ptr<FlexiblePart> flexible;  ///< empty for rigid bodies; copies of a body share it
@@ -109,7 +109,7 @@ class Body {
   int num_rows() const { return flexible ? static_cast<int>(flexible->rows.rows()) : 0; }
   int num_interface_rows() const { return flexible ? flexible->num_interface_rows : 0; }
 
-  /// Index of the marker with this name, −1 if there is none.
+  /// Index of the marker with this name, or −1.
   int find_marker(const std::string& marker) const;
   /// y = N d for all marker rows; empty for rigid bodies.
   Eigen::VectorXd row_values(const linalg::Vector& d) const;
@@ -123,7 +123,7 @@ class Body {
 /// @param planar normal of the plane in world axes at the initial orientation, zero for 3-D
 void select_frame_coordinates(Body& body, const std::optional<Eigen::Vector3d>& plane_normal);
 
-/// What a user should know about a rotation that was dropped.
+/// Message about a rotation that was dropped.
 std::string missing_inertia_note(const Body& body, const Eigen::Vector3d& axis);
 
 }  // namespace buckens::body

@@ -21,7 +21,7 @@
 
 namespace buckens::body {
 
-/// Orientation, given in one of three ways.
+/// Orientation in one of three forms.
 struct OrientationSpec {
   SourceLocation where;
   std::optional<Eigen::Vector3d> axis;
@@ -107,7 +107,7 @@ struct MarkerSpec {
   }
 };
 
-/// How the nodes of an interface move with its frame.
+/// How the nodes of an interface follow its frame.
 enum class InterfaceKind {
   average,  ///< the frame follows the mean motion of the nodes, which stay free to deform
   rigid,    ///< the nodes move as a rigid body with the frame
@@ -115,7 +115,7 @@ enum class InterfaceKind {
 
 constexpr std::array<const char*, 2> choice_names(InterfaceKind) { return {"average", "rigid"}; }
 
-/// A region of a mesh of solids with a frame that can be used like a marker.
+/// A region of a solid mesh with a frame that can be used like a marker.
 struct InterfaceSpec {
   std::string name;
   SourceLocation where;
@@ -177,7 +177,7 @@ struct RigidSpec {
   }
 };
 
-/// A body with the mesh or mass properties of another one.
+/// A body with the mesh or mass properties of another body.
 struct LikeSpec {
   static constexpr const char* kKey = "like";
   static constexpr const char* kDoc =
@@ -243,8 +243,8 @@ struct BodySpec {
 
   std::string name;
   SourceLocation where;
-  /// What the body is made of. The reader replaces LikeSpec by the contents of the other body;
-  /// `like` then holds the other body's name.
+  /// Contents of the body. The reader replaces LikeSpec by the contents of the other body; `like`
+  /// then holds the name of that body.
   std::variant<RigidSpec, fem::BeamSpec, fem::StructureSpec, fem::MeshSpec, fem::GeometrySpec,
                fem::MatricesSpec, LikeSpec>
       kind;

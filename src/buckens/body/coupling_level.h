@@ -6,19 +6,19 @@
 
 namespace buckens::body {
 
-/// User's choice of the inertial coupling terms between frame and nodal variables to keep.
+/// The user's choice of inertial coupling terms between frame and nodal variables.
 ///
-/// `full`: all of them, from the exact kinetic energy FM (13). `first_order`: those of a kinetic
-/// energy with J₀ + J₁(d). `none`: the body's frame moves like that of a rigid body, its mesh
-/// vibrates as at rest; derives from a kinetic energy with J₀. `automatic`: starts with the
-/// cheapest sufficient one of these and moves up during a run. The others leave out single groups,
-/// as the paper's figures 6 and 7 do; they do not derive from a kinetic energy.
+/// `full`: all terms, from the exact kinetic energy FM (13). `first_order`: those of a kinetic
+/// energy with J₀ + J₁(d). `none`: the frame moves like that of a rigid body and the mesh vibrates
+/// as at rest; this follows from a kinetic energy with J₀. `automatic`: starts with the cheapest
+/// sufficient level and moves up during a run. The others omit single groups, as in figures 6 and 7
+/// of the paper; they do not follow from a kinetic energy.
 enum class CouplingLevel { full, first_order, none, automatic, noquad, nocent, nocor, nojvar };
 
-/// A group of terms that can be left out, docs/theory/08-coupling.md.
+/// A group of terms that can be omitted, docs/theory/08-coupling.md.
 enum class CouplingTerm { quad_ref, jvar, cor_ref, cent0, cent1, cor_fe, eul_fe };
 
-/// The terms that are kept.
+/// The included terms.
 struct CouplingTerms {
   bool quad_ref = true;  ///< frame equation: everything quadratic in d, i.e. J₂, J̇₂, l, l̇
   bool jvar = true;      ///< frame equation: J(d) − J₀ in J ẇ and w × J w
@@ -27,8 +27,8 @@ struct CouplingTerms {
   bool cent1 = true;     ///< mesh: centrifugal load of the deformation
   bool cor_fe = true;    ///< mesh: Coriolis load, FM (22)
   bool eul_fe = true;    ///< mesh: Euler load, FM (23)
-  /// Mesh: stiffening by axial forces. Not an inertial coupling and in no level, but a load of the
-  /// same kind: it depends on all of d and is on the right-hand side.
+  /// Mesh: stiffening by axial forces. Not an inertial coupling and not part of any level, but a
+  /// similar load: it depends on all of d and is on the right-hand side.
   bool stiffening = false;
 
   static CouplingTerms none() { return {false, false, false, false, false, false, false}; }
@@ -37,10 +37,10 @@ struct CouplingTerms {
   void drop(CouplingTerm term);
 
   bool operator==(const CouplingTerms&) const = default;
-  /// Whether the six numbers c_ab·d are needed: for J₁ or for loads on the deformed position.
+  /// Whether the six numbers c_ab·d are needed, for J₁ or for loads on the deformed position.
   bool use_patterns() const { return jvar || cor_ref || cent0; }
   bool have_load() const { return cent1 || cor_fe || eul_fe || stiffening; }
-  /// Whether some terms depend on all of d, so that a step treats them as given and iterates.
+  /// Whether terms depend on all of d, so that a step treats them as given and iterates.
   bool are_lagged() const { return quad_ref || have_load(); }
 };
 
@@ -59,10 +59,10 @@ struct CouplingChoice {
   bool may_use_patterns() const { return is_automatic || terms.use_patterns(); }
 };
 
-/// As spelled in the model file.
+/// Name in the model file.
 std::string to_string(CouplingLevel level);
 std::string to_string(CouplingTerm term);
-/// Name of a set of terms: a level's name, or "drop cent0, cent1".
+/// Name of a set of terms: that of a level, or "drop cent0, cent1".
 std::string to_string(const CouplingTerms& terms);
 
 }  // namespace buckens::body

@@ -3,7 +3,7 @@
 
 namespace buckens::body {
 
-/// How many body frames carry one mesh.
+/// Number of body frames for one mesh.
 struct FrameDivision {
   static constexpr const char* kPerElement = "per-element";
 

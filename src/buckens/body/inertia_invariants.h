@@ -7,7 +7,7 @@
 
 namespace buckens::body {
 
-/// The 3×3 moments of a deformed body that couple its frame and its nodal variables.
+/// The 3×3 moments of a deformed body that couple its frame and nodal variables.
 ///
 /// T_ab(x, y) = xᵀ W_ab y with W_ab = ∫ g_a g_bᵀ dm. Everything is in body axes.
 struct DeformedMoments {
@@ -37,7 +37,7 @@ class InertiaInvariants {
   DeformedMoments moments(const linalg::Vector& d, const linalg::Vector& d_dot,
                           const linalg::Vector& d_ddot) const;
 
-  /// Their parts quadratic in d: J₂, J̇₂, l and l̇.
+  /// Only the parts quadratic in d: J₂, J̇₂, l and l̇.
   DeformedMoments quadratic_moments(const linalg::Vector& d, const linalg::Vector& d_dot,
                                     const linalg::Vector& d_ddot) const;
 

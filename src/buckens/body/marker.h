@@ -31,7 +31,7 @@ struct FrameMotion {
   Eigen::Vector3d v = Eigen::Vector3d::Zero();  ///< velocity of the origin in world axes [m/s]
 };
 
-/// A marker's motion together with the effect of a force on it on the body.
+/// Motion of a marker, and the effect on the body of a force at the marker.
 struct MarkerKinematics {
   spatial::MarkerMotion motion;
   Eigen::Matrix3d R_WB;          ///< body axes
@@ -49,7 +49,7 @@ struct MarkerKinematics {
 MarkerKinematics marker_kinematics(const Marker& marker, const FrameMotion& frame,
                                    const Eigen::VectorXd& y, const Eigen::VectorXd& y_dot);
 
-/// Acceleration of the marker when ẇ, v̇ and ÿ are zero.
+/// Acceleration of the marker if ẇ, v̇ and ÿ are zero.
 spatial::MarkerBias marker_bias(const Marker& marker, const FrameMotion& frame,
                                 const Eigen::VectorXd& y, const Eigen::VectorXd& y_dot);
 

@@ -9,8 +9,8 @@ namespace buckens::body {
 
 /// Maps the variables of the equations of motion to the nodal variables of the mesh: d = T x.
 ///
-/// T is the identity, sparse where nodes were eliminated (rigid regions), or dense where the body
-/// was reduced to a basis.
+/// T is the identity, sparse if nodes were eliminated (rigid regions), or dense if the body was
+/// reduced to a basis.
 class NodalRecovery {
  public:
   /// The identity.
@@ -20,9 +20,9 @@ class NodalRecovery {
 
   bool is_identity() const { return std::holds_alternative<std::monostate>(T_); }
   bool is_dense() const { return std::holds_alternative<linalg::Matrix>(T_); }
-  /// T where it is dense.
+  /// T if it is dense.
   const linalg::Matrix& dense() const { return std::get<linalg::Matrix>(T_); }
-  /// T where it is sparse.
+  /// T if it is sparse.
   const linalg::SparseMatrix& sparse() const { return std::get<linalg::SparseMatrix>(T_); }
 
   /// T x.

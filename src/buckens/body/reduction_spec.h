@@ -10,14 +10,14 @@
 
 namespace buckens::body {
 
-/// Whether deformation has inertia of its own.
+/// Whether deformation has inertia.
 enum class Flexibility { elastic, quasi_static };
 
 constexpr std::array<const char*, 2> choice_names(Flexibility) {
   return {"elastic", "quasi-static"};
 }
 
-/// Basis of free vibrations of the whole body.
+/// Basis of free modes of the whole body.
 struct FreeFreeSpec {
   SourceLocation where;
   int modes = 0;
@@ -37,7 +37,7 @@ struct FreeFreeSpec {
   }
 };
 
-/// Basis of vibrations with held interfaces and deformations by displaced interfaces.
+/// Basis of fixed-interface modes and constraint modes.
 struct CraigBamptonSpec {
   SourceLocation where;
   std::optional<int> modes;
@@ -62,7 +62,7 @@ struct CraigBamptonSpec {
   }
 };
 
-/// Reduced basis of a flexible body. At most one of the three bases is given.
+/// Reduced basis of a flexible body. At most one of the three is given.
 struct ReductionSpec {
   SourceLocation where;
   double tolerance = 0;  ///< of the choice by trial runs; 0: no trial runs

@@ -33,7 +33,7 @@ class Sieve {
   /// Rigid motion left in d: S⁻¹Pᵀd, three translations [m] and three rotations [rad].
   Eigen::Matrix<double, 6, 1> rigid_part(const linalg::Vector& d) const;
 
-  /// Number of rigid motions that carry mass, at most six.
+  /// Number of rigid motions with mass, at most six.
   Eigen::Index rank() const { return Phi_.cols(); }
   const Eigen::Matrix<double, 6, 6>& S() const { return S_; }
   /// M-orthonormal rigid modes and their images P = MΦ, n×rank.

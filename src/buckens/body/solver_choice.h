@@ -7,7 +7,7 @@ namespace buckens::body {
 
 enum class SolverKind { direct, iterative, automatic };
 
-/// How the large systems of a mesh are to be solved.
+/// Requested solver for the large systems of a mesh.
 struct SolverChoice {
   SolverKind kind = SolverKind::direct;
   std::string petsc;  ///< options of PETSc; empty: those of linalg::IterativeSolver

@@ -15,7 +15,7 @@ constexpr std::array<const char*, 3> choice_names(SolverKind) {
   return {"direct", "iterative", "auto"};
 }
 
-/// How the large systems of the body's mesh are solved.
+/// Solver for the large systems of the body's mesh.
 struct SolverSpec {
   SourceLocation where;
   std::optional<SolverKind> kind;

@@ -16,13 +16,13 @@
 
 namespace buckens::fem {
 
-/// Nodes under one name.
+/// Named nodes.
 struct NodeSet {
   std::string name;
   std::vector<int> nodes;  ///< ascending
 };
 
-/// Elements under one name, numbered within their kind.
+/// Named elements, numbered within their kind.
 struct ElementSet {
   std::string name;
   std::vector<int> beams, bars, solids, shells;
@@ -30,8 +30,8 @@ struct ElementSet {
 
 /// The mesh of one body before assembly: nodes and elements in model axes.
 ///
-/// Elements are numbered through all kinds: beams first, then bars, point masses, solids,
-/// shells, springs.
+/// Elements are numbered consecutively over all kinds: beams, bars, point masses, solids, shells,
+/// springs.
 struct Structure {
   std::vector<Node> nodes;
   BeamBlock beams;
@@ -62,13 +62,13 @@ struct BeamDivision {
 /// @throws ModelError if another node has this name
 int add_node(Structure& structure, const std::string& name, const Eigen::Vector3d& position);
 
-/// Divides the line between two nodes into equal beam elements; creates the unnamed nodes in
-/// between.
+/// Divides the line between two nodes into equal beam elements and creates the unnamed nodes
+/// between them.
 /// @throws ModelError if `divisions` < 1 or a node does not exist
 BeamDivision add_beam(Structure& structure, int node_a, int node_b, int divisions,
                       const BeamProperties& properties);
 
-/// Divides a bar between two nodes into equal elements; the nodes between become straight nodes.
+/// Divides a bar between two nodes into equal elements; intermediate nodes become straight nodes.
 /// @throws ModelError if `divisions` < 1 or a node does not exist
 void add_bar(Structure& structure, int node_a, int node_b, int divisions, const Material& material,
              const Section& section);
@@ -76,10 +76,10 @@ void add_bar(Structure& structure, int node_a, int node_b, int divisions, const 
 /// All nodes of the faces of solids and shells in a set, ascending, each once.
 std::vector<int> face_set_nodes(const Structure& structure, const FaceSet& set);
 
-/// The faces with this name, null if there are none.
+/// The faces with this name, or null.
 const FaceSet* find_face_set(const Structure& structure, const std::string& name);
 
-/// Index of the node with this name, −1 if there is none.
+/// Index of the node with this name, or −1.
 int find_node(const Structure& structure, const std::string& name);
 
 }  // namespace buckens::fem

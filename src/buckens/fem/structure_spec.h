@@ -23,7 +23,7 @@ constexpr std::array<const char*, 2> choice_names(BeamTheory) {
   return {"euler-bernoulli", "timoshenko"};
 }
 
-/// What beams have in common, whichever way their ends are given.
+/// Common to all beams, however their ends are given.
 struct BeamPropertySpec {
   int elements = 1;
   base::Reference<SectionSpec> section;
@@ -126,7 +126,7 @@ inline Eigen::Matrix3d symmetric_matrix(const std::vector<double>& entries) {
 
 inline Eigen::Matrix3d PointMassSpec::inertia_matrix() const { return symmetric_matrix(inertia); }
 
-/// A body that consists of one beam.
+/// A body consisting of one beam.
 struct BeamSpec : BeamPropertySpec {
   static constexpr const char* kKey = "beam";
   static constexpr const char* kDoc = "flexible body: one beam";
@@ -209,7 +209,7 @@ struct BarMemberSpec {
 };
 
 /// Beams, bars, solids, shells and point masses between named nodes. Beams and shells are joined
-/// rigidly, bars and solids hold only the position of a node.
+/// rigidly; bars and solids constrain only the position of a node.
 struct StructureSpec {
   // In structure_spec.cpp, because they reach through all members: two to five seconds of compiling
   // each.

@@ -7,8 +7,8 @@
 
 namespace buckens::files {
 
-/// A file written piece by piece, each piece passed to the system at once: what was written
-/// survives if the program dies.
+/// A file written in pieces, each passed to the system at once, so that they survive if the
+/// program dies.
 class OutputFile {
  public:
   enum class Start {
@@ -18,14 +18,14 @@ class OutputFile {
   };
 
   OutputFile() = default;
-  /// Opens the file for writing at its end and creates it if needed.
+  /// Opens the file for appending, and creates it if needed.
   /// @throws IoError
   explicit OutputFile(const std::filesystem::path& path, Start start = Start::empty);
   ~OutputFile();
   OutputFile(OutputFile&& other) noexcept;
   OutputFile& operator=(OutputFile&& other) noexcept;
 
-  /// @throws IoError with the system's reason, for instance a full disk
+  /// @throws IoError with the system's reason, such as a full disk
   void write(std::string_view text);
   /// Empties the file. @throws IoError
   void clear();
@@ -45,8 +45,8 @@ class OutputFile {
   int descriptor_ = -1;
 };
 
-/// Creates a file of this name without ever writing to someone else's: an existing file or symbolic
-/// link is removed first, and one that appears in between is an error. Devices and pipes are
+/// Creates a file without ever writing to somebody else's: an existing file or symbolic link is
+/// removed first, and one that appears meanwhile is an error. Existing devices and pipes are
 /// opened.
 /// @param flags of open() besides those for creation
 /// @return the descriptor, or −1 with errno as open() sets it
@@ -59,19 +59,19 @@ std::string system_reason(int error);
 /// The whole contents of a file. @throws IoError
 std::string read_text_file(const std::filesystem::path& path);
 
-/// What the new contents of a file outlive, once they are written.
+/// Failures that new contents of a file survive, once written.
 enum class Lasting {
   process,  ///< the end of this program, however it comes
   power     ///< a loss of power, too; costs some milliseconds
 };
 
-/// Writes a file atomically: readers see the old contents or the new, never a part.
+/// Writes a file atomically: readers see the old or the new contents, never a part.
 /// @throws IoError; the old contents are then kept
 void replace_text_file(const std::filesystem::path& path, std::string_view text,
                        Lasting lasting = Lasting::process);
 
-/// Returns when what the system holds of a file or directory is on the disk. File systems that know
-/// no such thing do without. @throws IoError
+/// Returns when all data of a file or directory are on disk, if the file system supports that.
+/// @throws IoError
 void sync_to_disk(const std::filesystem::path& path);
 
 /// Date and time to the second, "2026-01-31T12:00:00Z".

@@ -9,7 +9,7 @@
 
 namespace buckens::joints {
 
-/// What a steered row is told: where it is to be at an instant, and how that moves on from there.
+/// Target of a steered row: its value at an instant and its derivatives.
 struct Steering {
   static constexpr int kStates = 5;
   double t = 0;             ///< the instant [s]
@@ -21,7 +21,7 @@ struct Steering {
     const double all[kStates] = {1.0, t, value, rate, acceleration};
     for (int k = 0; k < kStates; ++k) states[k] = all[k];
   }
-  /// @param states may be null. @return whether they say anything
+  /// @param states may be null. @return whether they contain a target
   bool read(const double* states) {
     if (states == nullptr || states[0] == 0.0) return false;
     *this = {states[1], states[2], states[3], states[4]};
@@ -31,7 +31,7 @@ struct Steering {
 
 /// One scalar constraint between marker frames F (first) and M (second).
 ///
-/// Every joint is made of these kinds of rows:
+/// Every joint consists of rows of these kinds:
 ///   - `point_world`: e·(p_M − p_F) = 0 with e fixed in the world;
 ///   - `point_along`: (R_F e)·(p_M − p_F) − s₀ − s(t) = 0 with e fixed in F;
 ///   - `direction`: (R_F b(t))·(R_M c) = 0, b rotating about the axis a of F by a law of time if
@@ -39,12 +39,12 @@ struct Steering {
 ///   - `distance`:    |p_M − p_F| − L = 0;
 ///   - `homokinetic`: (R_F x)·(R_M y′) − (R_F y)·(R_M x′) = 0, x and y across the shafts;
 ///   - `screw`:       s − p θ/2π = 0 with displacement s along and angle θ about an axis of F;
-///   - `law`:         what a RowLaw says, which remembers something from step to step;
-///   - `coupled`:     a sum over coordinates of other joints. It lies between more than two markers
-///                    and is evaluated from model::Joint::coupled; here stand only its unit and
+///   - `law`:         given by a RowLaw, with memory from step to step;
+///   - `coupled`:     a sum over coordinates of other joints. It acts on more than two markers and
+///                    is evaluated from model::Joint::coupled; this class holds only its unit and
 ///                    its law of time;
-///   - `travelling`:  between a marker and the point of a beam where it is now, evaluated from
-///                    model::Joint::track; here stand only its number and its law of time.
+///   - `travelling`:  between a marker and its current point on a beam, evaluated from
+///                    model::Joint::track; this class holds only its number and its law of time.
 class ConstraintRow {
  public:
   enum class Kind {
@@ -71,37 +71,37 @@ class ConstraintRow {
 
   /// @param length L [m], > 0
   static ConstraintRow distance(double length);
-  /// Two directions perpendicular to the shaft of F, and to that of M.
+  /// Two directions perpendicular to the shaft of F, and two to that of M.
   static ConstraintRow homokinetic(const Eigen::Vector3d& x_F, const Eigen::Vector3d& y_F,
                                    const Eigen::Vector3d& x_M, const Eigen::Vector3d& y_M);
   /// The displacement is measured from the offset along the axis, the angle from where x_M
   /// coincides with a direction x_F perpendicular to the axis. Whole turns follow from the
-  /// displacement, so none are counted.
+  /// displacement and need not be counted.
   /// @param pitch p [m], not zero
   static ConstraintRow screw(const Eigen::Vector3d& axis_F, const Eigen::Vector3d& x_F,
                              const Eigen::Vector3d& x_M, double offset, double pitch);
 
   static ConstraintRow by_law(std::shared_ptr<const RowLaw> law);
-  /// @param is_length whether the sum is a length or an angle, @param law what it is to be, zero if
+  /// @param is_length whether the sum is a length or an angle, @param law its target, zero if
   ///        absent
   static ConstraintRow coupled(bool is_length, std::optional<base::TimeLaw> law = std::nullopt);
   /// @param number 0 and 1 across the beam, 2 along it
-  /// @param displacement along the beam from s = 0 [m], of the row along it
+  /// @param displacement along the beam from s = 0 [m], for the row along it
   static ConstraintRow travelling(int number,
                                   std::optional<base::TimeLaw> displacement = std::nullopt);
 
-  /// The same row, following signals instead of a law of time: where it is to be stands in its
-  /// states (Steering), which whoever evaluates signals writes.
-  /// @param start where it is to be as long as its states say nothing [m] or [rad]
+  /// The same row, but following signals instead of a law of time. Its states hold the target
+  /// (Steering); the evaluation of signals writes them.
+  /// @param start target while its states are not set [m] or [rad]
   /// @pre depends_on_time(), of kind `point_along`, `direction`, `coupled` or `travelling`
   ConstraintRow steered(double start) const;
 
-  /// @param states what a row of kind `law` remembers, or a steered one is told; null: nothing is
-  ///        known yet
+  /// @param states memory of a row of kind `law`, or target of a steered one; null: not
+  ///        yet known
   RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double t,
                     const double* states = nullptr) const;
 
-  /// Part of g̈ that does not depend on the accelerations of the bodies' coordinates.
+  /// Part of g̈ that is independent of the accelerations of the bodies' coordinates.
   double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
               const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M, double t,
               const double* states = nullptr) const;
@@ -112,7 +112,7 @@ class ConstraintRow {
     return kind_ != Kind::direction && kind_ != Kind::homokinetic && !is_angle_ &&
            (!own_ || own_->is_length());
   }
-  /// Whether the row takes a moment of the first marker, and of the second.
+  /// Whether the row transmits a moment to the first and to the second marker.
   bool turns_first() const {
     return kind_ != Kind::point_world && kind_ != Kind::distance && kind_ != Kind::coupled &&
            kind_ != Kind::travelling;
@@ -121,25 +121,25 @@ class ConstraintRow {
     return turns_first() && kind_ != Kind::point_along && (!own_ || own_->turns_second());
   }
   bool depends_on_time() const { return law_.has_value(); }
-  /// A slider remembers with its first row whether it is known where it is, and where.
+  /// The first row of a slider stores whether its position is known, and the position.
   int num_states() const {
     if (is_steered_) return Steering::kStates;
     if (kind_ == Kind::travelling) return number_ == 0 ? 2 : 0;
     return own_ ? own_->num_states() : 0;
   }
-  /// Whether it holds rates only, so that its residual is always zero: rolling.
+  /// Whether it constrains rates only, as in rolling, so that its residual is always zero.
   bool holds_rates_only() const { return own_ && own_->holds_rates_only(); }
   /// Of a travelling row.
   int number() const { return number_; }
   /// Whether it follows signals.
   bool is_steered() const { return is_steered_; }
-  /// Where a driven row is to be. @param states of this row, may be null
+  /// Target of a driven row. @param states of this row, may be null
   double driven_to(double t, const double* states) const;
   double driven_rate(double t, const double* states) const;
   double driven_acceleration(double t, const double* states) const;
-  /// Of rows of kind `law`, else null.
+  /// For rows of kind `law`, otherwise null.
   const RowLaw* law() const { return own_.get(); }
-  /// e of a point row; b of a direction row, at angle zero where it turns.
+  /// e of a point row; b of a direction row, at angle zero if it turns.
   const Eigen::Vector3d& direction() const { return e_; }
   /// c of a direction row, in M.
   const Eigen::Vector3d& second_direction() const { return c_; }

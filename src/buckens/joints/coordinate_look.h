@@ -5,7 +5,7 @@
 
 namespace buckens::joints {
 
-/// A coordinate with its whole turns stored separately, so that no digits are lost after many.
+/// A coordinate with whole turns stored separately, so that many turns do not cost digits.
 struct CountedValue {
   int turns = 0;        ///< of an angle; 0 of a displacement
   double fraction = 0;  ///< angle within the turn, −π … π [rad], or displacement [m]
@@ -20,7 +20,7 @@ struct CoordinateLook {
   double rate = 0;      ///< J V
   spatial::PairRow J = spatial::PairRow::Zero();
 
-  /// Sets the rate from J.
+  /// Computes the rate from J.
   void take_rate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M) {
     rate = J.segment<3>(0).dot(F.w) + J.segment<3>(3).dot(F.v) + J.segment<3>(6).dot(M.w) +
            J.segment<3>(9).dot(M.v);

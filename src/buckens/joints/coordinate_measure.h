@@ -5,19 +5,19 @@
 
 namespace buckens::joints {
 
-/// How a joint coordinate is measured where that takes more than an axis: the way along a curve
-/// (PathCoordinate), the angles of a ball joint (Swing, Twist), how far a wheel has rolled
+/// Measurement of a joint coordinate that an axis does not define: distance along a curve
+/// (PathCoordinate), angles of a ball joint (Swing, Twist), distance rolled by a wheel
 /// (RolledWay).
 class CoordinateMeasure {
  public:
   virtual ~CoordinateMeasure() = default;
-  /// Whether it is an angle [rad], and no length [m].
+  /// Whether it is an angle [rad] rather than a length [m].
   virtual bool is_angle() const = 0;
-  /// @param before where it was a step before: curves that cross themselves have several places
-  ///        nearby; null: the nearest of all
+  /// @param before value at the previous step, needed where a curve crosses itself; null: the point
+  ///        nearest of all
   virtual CoordinateLook look(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
                               const CountedValue* before) const = 0;
-  /// Part of its acceleration without accelerations of the bodies' coordinates.
+  /// Part of its acceleration that is independent of the accelerations of the bodies' coordinates.
   virtual double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
                       const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M,
                       const CountedValue* before) const = 0;

@@ -20,7 +20,7 @@ class CoordinateFunction {
   static CoordinateFunction table(const std::vector<std::array<double, 2>>& points,
                                   std::string owner = {});
 
-  /// @throws NumericalError outside of a table
+  /// @throws NumericalError outside a table
   double value(double x) const;
   double slope(double x) const;
   double curvature(double x) const;
@@ -34,7 +34,7 @@ class CoordinateFunction {
   std::string owner_;
 };
 
-/// One coordinate's share of a coupler: c ξ, or f(ξ).
+/// Term of one coordinate in a coupler: c ξ, or f(ξ).
 struct CoordinateTerm {
   double factor = 1;
   std::optional<CoordinateFunction> function;  ///< in place of the factor
@@ -47,7 +47,7 @@ struct CoordinateTerm {
 /// The sum that a coupler keeps at zero.
 class CouplerSum {
  public:
-  /// Adds what a term gives at the coordinate's value.
+  /// Adds the value of a term for a coordinate.
   void add(const CoordinateTerm& term, const CountedValue& value) {
     if (term.function) {
       functions_ += term.function->value(value.value());

@@ -12,7 +12,7 @@ struct CurvePoint {
   Eigen::Vector3d p, tangent, curvature;  ///< c, c′, c″
 };
 
-/// How a curve goes on from where the piece before it ended.
+/// The next piece of a curve, from the end of the previous one.
 struct CurveStep {
   enum class Kind {
     line,         ///< straight
@@ -25,24 +25,24 @@ struct CurveStep {
   Eigen::Vector3d by = Eigen::Vector3d::Zero();  ///< [m]
 };
 
-/// Straight lines and arcs that meet smoothly, by the length along them.
+/// Straight lines and arcs that join smoothly, parametrised by arc length.
 class CurvePieces {
  public:
   CurvePieces() = default;
-  /// @throws ModelError if a piece has no length or no circle, or two meet at an angle
+  /// @throws ModelError if a piece has no length or defines no circle, or two meet at an angle
   CurvePieces(const Eigen::Vector3d& start, const std::vector<CurveStep>& steps);
 
   bool empty() const { return pieces_.empty(); }
   double length() const { return empty() ? 0.0 : pieces_.back().to; }
   /// @param s 0 … length()
   CurvePoint at(double s) const;
-  /// @throws ModelError if the last one does not lead back smoothly to where the first begins
+  /// @throws ModelError if the last piece does not join the first one smoothly
   void require_closed() const;
 
   struct Piece {
     double from = 0, to = 0;  ///< along the curve [m]
     double radius = 0;        ///< 0: a line
-    /// Where a line begins and its direction; centre of an arc and its first radius.
+    /// Start and direction of a line; centre of an arc and its radius vector at the start.
     Eigen::Vector3d origin, first;
     Eigen::Vector3d second = Eigen::Vector3d::Zero();  ///< of an arc: tangent at its start
     CurvePoint at(double s) const;

@@ -7,21 +7,21 @@
 
 namespace buckens::joints {
 
-/// What a drive follows: exactly one of the three is given; of a slider that is free, none.
+/// The law that a drive follows: exactly one of the three, or none for a free slider.
 struct DriveLaws {
   const std::optional<base::SignalLaw>&position, &rate, &acceleration;
 
   int num_given() const {
     return int{position.has_value()} + int{rate.has_value()} + int{acceleration.has_value()};
   }
-  /// Whether it follows signals, so that no law of time is known.
+  /// Whether it follows signals, so that there is no law of time.
   bool is_steered() const {
     for (const auto* law : {&position, &rate, &acceleration}) {
       if (*law && (*law)->uses_signals()) return true;
     }
     return false;
   }
-  /// The motion as a law of time; integrals begin at t = 0 with 0. @pre !is_steered()
+  /// The motion as a law of time; integrals are 0 at t = 0. @pre !is_steered()
   base::TimeLaw of_time() const {
     if (rate) return base::TimeLaw::integral(rate->law);
     if (acceleration) return base::TimeLaw::integral(base::TimeLaw::integral(acceleration->law));

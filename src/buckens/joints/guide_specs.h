@@ -18,7 +18,7 @@ struct CylindricalSpec : JointEndsAndDirection {
   }
 };
 
-/// The direction of x in a plane, whose y is across it: normal × x.
+/// The direction of x in a plane; y is normal × x.
 template <class Visitor>
 void visit_x_axis(Visitor& visit, std::optional<Eigen::Vector3d>& x_axis) {
   visit(base::field("along", x_axis,

@@ -40,14 +40,14 @@ enum class JointType {
   prescribed_coordinate
 };
 
-/// Name of the kind as spelled in the model file.
+/// Name of the kind in the model file.
 std::string to_string(JointType type);
 
 /// Orientation of both marker frames as placed, and further data of the joint.
 ///
-/// Joints keep the relative orientation of the bodies as placed: directions of M are the images of
-/// F's directions there, and prescribed angles and displacements are measured from it. Points
-/// should coincide or lie on the axis, so a gap is closed by assembly.
+/// Joints keep the relative orientation of the bodies as placed: directions of M are images of F's
+/// directions there, and prescribed angles and displacements are measured from it. Points should
+/// coincide or lie on the axis; assembly closes gaps.
 struct Placement {
   Eigen::Matrix3d R_WF = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d R_WM = Eigen::Matrix3d::Identity();
@@ -67,8 +67,8 @@ struct Placement {
   std::vector<CurveStep> path_steps;                     ///< these, in F
   bool is_closed = false;                                ///< whether the path is
   std::optional<Eigen::Vector3d> path_normal_F;  ///< of a plane path; planar models need none
-  /// Of a prescribed rotation: what turns with M as placed, unit vector in F across the axis; any
-  /// if M turns about no other axis.
+  /// For a prescribed rotation: a direction that turns with M, as placed, unit vector in F
+  /// perpendicular to the axis; any if M turns about no other axis.
   std::optional<Eigen::Vector3d> mark_F;
   std::optional<Eigen::Vector3d> x_F;  ///< of planes: direction of x, none: the standard one
   bool as_found = false;               ///< whether a weld holds where it was attached
@@ -88,11 +88,11 @@ struct Placement {
 ///         its second axis or its length does not suit it
 std::vector<ConstraintRow> make_rows(JointType type, const Placement& placement);
 
-/// Rows that hold two points together and keep the direction `axis_F` common to both markers: for
-/// two bars that only divide a longer one.
+/// Rows that keep two points together and the direction `axis_F` common to both markers, for two
+/// bars that divide a longer one.
 std::vector<ConstraintRow> make_straight_rows(const Placement& placement);
 
-/// Joint axis in F, normalised.
+/// Unit vector of the joint axis in F.
 Eigen::Vector3d unit_axis(const Placement& placement);
 
 }  // namespace buckens::joints

@@ -10,17 +10,17 @@ namespace buckens::joints {
 class GapLaw;
 
 /// Angle or displacement of marker M relative to marker F about or along an axis fixed in F, both
-/// zero as placed; the length of the line between them; the gap between M and a curve fixed in F;
-/// or what a CoordinateMeasure measures. The axis is also fixed in M if a joint ensures that. The
-/// second angle, of a cross joint, is that about an axis fixed in M.
+/// zero as placed; the distance between them; the gap between M and a curve fixed in F; or a
+/// CoordinateMeasure. The axis is also fixed in M if a joint ensures that. The second angle of a
+/// cross joint is about an axis fixed in M.
 class JointCoordinate {
  public:
   enum class Kind { angle, displacement, second_angle, length, gap, measured };
 
   /// @param axis_F unit vector in F, @param R_FM_placed orientation of M in F as placed
   static JointCoordinate angle(const Eigen::Vector3d& axis_F, const Eigen::Matrix3d& R_FM_placed);
-  /// Both angles of a cross joint, whose arms stay perpendicular: θ₁ about the arm b that F holds,
-  /// θ₂ about the arm c that M holds,
+  /// Both angles of a cross joint with perpendicular arms: θ₁ about the arm b fixed in F, θ₂ about
+  /// the arm c fixed in M,
   ///
   ///     R_FM = exp(θ₁ b) exp(θ₂ c) R_FM_placed,   θ̇₁ = b·(ω_M − ω_F),  θ̇₂ = c·(ω_M − ω_F)  (R33)
   ///
@@ -34,14 +34,14 @@ class JointCoordinate {
                                       const Eigen::Vector3d& r_F_placed);
 
   static JointCoordinate length();
-  /// Zero where the curve is touched, positive on the free side of it.
+  /// Zero on the curve, positive on its free side.
   static JointCoordinate gap(std::shared_ptr<const GapLaw> law);
   static JointCoordinate measured(std::shared_ptr<const CoordinateMeasure> measure);
 
   Kind kind() const { return kind_; }
-  /// Whether it is an angle [rad], and no length [m].
+  /// Whether it is an angle [rad] rather than a length [m].
   bool is_angle() const { return is_angle_; }
-  /// In F; of a second angle, where M holds it, as placed; zero of what has no axis.
+  /// The axis in F; of a second angle as placed; zero if there is no axis.
   const Eigen::Vector3d& axis() const { return axis_F_; }
 
   // Of measured coordinates, `before` says where they were a step before; null: not known.
@@ -52,21 +52,21 @@ class JointCoordinate {
   /// J: the rate of the coordinate is J V.
   spatial::PairRow derivatives(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
                                const CountedValue* before = nullptr) const;
-  /// Both with the rate, for less than one after the other.
+  /// Both and the rate, at less cost than separate calls.
   CoordinateLook look(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
                       const CountedValue* before = nullptr) const;
-  /// Part of the coordinate's acceleration that does not come from those of the bodies'
+  /// Part of the coordinate's acceleration that is independent of the accelerations of the bodies'
   /// coordinates.
   double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
               const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M,
               const CountedValue* before = nullptr) const;
-  /// The law of a gap, else null.
+  /// The law of a gap, otherwise null.
   const GapLaw* gap_law() const { return gap_.get(); }
   /// The counted value closest to `before`.
   CountedValue follow(const CountedValue& before, double fraction) const;
 
  private:
-  /// The axis as it is now.
+  /// The current axis.
   Eigen::Vector3d axis_now(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M) const {
     return kind_ == Kind::second_angle ? Eigen::Vector3d(M.R * axis_M_)
                                        : Eigen::Vector3d(F.R * axis_F_);
@@ -83,11 +83,11 @@ class JointCoordinate {
   std::shared_ptr<const CoordinateMeasure> measure_;   // of what is measured
 };
 
-/// The counted angle that is reached from `before` on the shorter way.
+/// The counted angle that is nearest to `before`.
 /// @param fraction within the turn, −π … π [rad]
 CountedValue follow_turns(const CountedValue& before, double fraction);
 
-/// How far a coordinate has gone from one value to another, with all digits.
+/// Difference between two values of a coordinate, with all digits.
 double difference(const CountedValue& from, const CountedValue& to);
 
 }  // namespace buckens::joints

@@ -12,7 +12,7 @@
 
 namespace buckens::joints {
 
-/// Two markers; the joint's axes are those of the first.
+/// Two markers; the joint uses the axes of the first.
 struct JointEnds {
   std::array<base::MarkerRef, 2> between;
 
@@ -34,7 +34,7 @@ struct JointEndsAndAxis : JointEnds {
   }
 };
 
-/// With an axis that must be given.
+/// Two markers with a required axis.
 struct JointEndsAndDirection : JointEnds {
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< in the first marker
 

@@ -101,7 +101,7 @@ struct BushingSpec : JointEnds {
   Eigen::Vector3d rotational_stiffness = Eigen::Vector3d::Zero();  ///< [N m/rad]
   Eigen::Vector3d damping = Eigen::Vector3d::Zero();               ///< [N s/m]
   Eigen::Vector3d rotational_damping = Eigen::Vector3d::Zero();    ///< [N m s/rad]
-  /// Beside these, along and about each axis [N], [N m].
+  /// Additional laws along and about each axis [N], [N m].
   std::array<std::optional<base::Characteristic>, 3> forces, torques;
   base::SignalLaw stiffness_factor = 1.0, damping_factor = 1.0;
 
@@ -274,7 +274,7 @@ struct JointSpec {
         },
         kind);
   }
-  /// Of a kind without coordinates, what to use instead; else null.
+  /// For a kind without coordinates, an alternative; otherwise null.
   const char* instead() const {
     return std::visit(
         []<class T>(const T&) -> const char* {
@@ -283,7 +283,7 @@ struct JointSpec {
         },
         kind);
   }
-  /// What drives it; nothing drives most kinds.
+  /// The laws that drive it; most kinds have none.
   DriveLaws laws() const {
     static const std::optional<base::SignalLaw> kNone;
     return std::visit(
@@ -293,7 +293,7 @@ struct JointSpec {
         },
         kind);
   }
-  /// Whether what drives it is an angle.
+  /// Whether the driven quantity is an angle.
   bool drives_angle() const {
     if (const auto* drive = std::get_if<PrescribedCoordinateSpec>(&kind)) {
       return drive->drives_angle();

@@ -28,7 +28,7 @@ struct ToothAngles {
   }
 };
 
-/// Play between rigid teeth, and blows of their flanks.
+/// Backlash between rigid teeth, and impacts of their flanks.
 struct ToothPlay {
   double backlash = 0;                ///< [m]
   std::optional<double> restitution;  ///< 0 … 1

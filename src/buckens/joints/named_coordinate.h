@@ -16,9 +16,9 @@ struct NamedCoordinate {
   JointCoordinate law;
 };
 
-/// The coordinates of a joint. Planar models have none that would leave the plane.
+/// The coordinates of a joint; in planar models only those within the plane.
 /// @param names as the joint's spec lists them, @param rows of the joint
-/// @throws ModelError if an axis for them has no direction
+/// @throws ModelError if an axis has no direction
 std::vector<NamedCoordinate> make_coordinates(JointType type,
                                               std::span<const base::CoordinateChoice> names,
                                               const Placement& placement,

@@ -7,7 +7,7 @@
 
 namespace buckens::joints {
 
-/// Everything one scalar constraint g(X_F, X_M, t) = 0 says at one configuration.
+/// All terms of a scalar constraint g(X_F, X_M, t) = 0 at one configuration.
 ///
 ///     ġ = J V + g_t,      g̈ = J V̇ + bias                                   FM (20), (34)
 ///
@@ -19,34 +19,34 @@ struct RowValue {
   spatial::PairRow J = spatial::PairRow::Zero();
 };
 
-/// A constraint between two markers that remembers something from step to step, such as whole
+/// A constraint between two markers that has memory from step to step, such as the number of whole
 /// turns.
 ///
-/// What it remembers is part of the state of the mechanism (model::RowMemory), from which it is
-/// handed in as `states`, num_states() numbers as at the start of the step; null where nothing is
-/// known yet: then all are zero.
+/// Its memory is part of the state of the mechanism (model::RowMemory). It is passed as `states`:
+/// num_states() numbers at the start of the step. Null means that they are not yet known and all
+/// zero.
 class RowLaw {
  public:
   virtual ~RowLaw() = default;
 
   virtual int num_states() const = 0;
-  /// Whether it takes a moment of the second marker; of the first it always does.
+  /// Whether it transmits a moment to the second marker; to the first it always does.
   virtual bool turns_second() const { return true; }
-  /// Whether its residual is a length, or without dimension.
+  /// Whether its residual is a length rather than dimensionless.
   virtual bool is_length() const { return true; }
-  /// Whether it holds rates that are those of no position, so that its residual is always zero.
+  /// Whether it constrains rates only (non-holonomic), so that its residual is always zero.
   virtual bool holds_rates_only() const { return false; }
   virtual RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
                             const double* states) const = 0;
-  /// Part of g̈ that does not come from the accelerations of the bodies' coordinates.
+  /// Part of g̈ that is independent of the accelerations of the bodies' coordinates.
   virtual double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
                       const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M,
                       const double* states) const = 0;
-  /// What is remembered at the end of a step.
+  /// Updates the memory at the end of a step.
   /// @param before may be null, @param after may be `before`
   virtual void follow(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double lambda,
                       const double* before, double* after) const = 0;
-  /// What is remembered when an event attaches the joint: it looks anew. @param states as before
+  /// Resets the memory when an event attaches the joint. @param states as before
   virtual void attach(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
                       double* states) const {
     std::fill_n(states, num_states(), 0.0);

@@ -10,9 +10,9 @@ namespace buckens::joints {
 
 /// Σ cᵢ θᵢ of angles that are counted over turns.
 ///
-/// The angles of gears grow without end while their sum stays small. Σ cᵢ nᵢ over whole turns is
-/// formed without rounding (products and sums with their errors, Dekker 1971), so that what is left
-/// has all its digits after any number of turns.
+/// Angles of gears grow without bound while their sum stays small. Σ cᵢ nᵢ over whole turns is
+/// computed without rounding (error-free products and sums, Dekker 1971), so that the remainder has
+/// all its digits after any number of turns.
 class TurnSum {
  public:
   void add(double factor, const CountedValue& value) {

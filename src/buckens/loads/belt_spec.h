@@ -9,7 +9,7 @@
 
 namespace buckens::loads {
 
-/// A belt that stretches and slips, over two pulleys held by joints of their own.
+/// An elastic belt that slips, over two pulleys held by their own joints.
 struct ElasticBeltSpec {
   static constexpr const char* kKey = "elastic-belt";
   static constexpr const char* kDoc =

@@ -11,12 +11,12 @@
 
 namespace buckens::loads {
 
-/// Side of a cable, as seen along its way and against the axis, on which a pulley is.
+/// Side of a cable on which a pulley is, seen along the cable and against the axis.
 enum class PulleySide { left, right };
 
 constexpr std::array<const char*, 2> choice_names(PulleySide) { return {"left", "right"}; }
 
-/// A pulley that a cable runs around.
+/// A pulley that a cable wraps.
 struct CablePulleySpec {
   SourceLocation where;
   base::MarkerRef on;

@@ -10,7 +10,7 @@
 
 namespace buckens::loads {
 
-/// The side of a curve, seen along it.
+/// A side of a curve, seen along it.
 enum class CurveSide { left, right };
 
 constexpr std::array<const char*, 2> choice_names(CurveSide) { return {"left", "right"}; }

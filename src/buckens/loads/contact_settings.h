@@ -8,10 +8,10 @@ namespace buckens::loads {
 struct ContactData;
 struct ContactFrictionData;
 
-/// Numbers of a contact that events change: where their values are among t and those of all
-/// signals. 0, the place of t: it stays as the model says. Without values all of them do.
-/// What was derived from them as the model was built, thresholds and the stiffness of sticking,
-/// stays as well.
+/// Parameters of a contact that events change, as indices into t and the values of all signals.
+/// 0, the index of t, means the value of the model; so does a missing list of values.
+/// Quantities derived from them when the model was built (thresholds, stiffness of sticking) do not
+/// change.
 struct ContactSettings {
   int stiffness = 0;
   int restitution = 0;
@@ -19,7 +19,7 @@ struct ContactSettings {
   int static_coefficient = 0;
   int dynamic_coefficient = 0;  ///< where it stays, it is at most the other one
 
-  /// Whether friction or what acts across the surface changes.
+  /// Whether friction or the normal force law changes.
   bool any() const { return changes_across() || changes_friction(); }
   bool changes_across() const { return stiffness > 0 || restitution > 0 || damping > 0; }
   bool changes_friction() const { return static_coefficient > 0 || dynamic_coefficient > 0; }
@@ -27,7 +27,7 @@ struct ContactSettings {
   /// @param signals t and the values of all signals
   void put(std::span<const double> signals, ContactData& data) const;
   void put(std::span<const double> signals, ContactFrictionData& data) const;
-  /// @param otherwise the restitution where it stays
+  /// @param otherwise the restitution if it does not change
   double restitution_at(std::span<const double> signals, double otherwise) const;
 };
 

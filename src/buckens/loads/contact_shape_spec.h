@@ -86,7 +86,7 @@ struct BoreShape {
   }
 };
 
-/// What capsule and cylinder have in common.
+/// Common to capsule and cylinder.
 struct LongShape {
   double radius = 0;  ///< [m]
   double length = 0;  ///< [m]
@@ -163,7 +163,7 @@ void visit_spacing(Visitor& visit, std::optional<double>& spacing) {
             .otherwise("a fifth of the side of a square that has a sixth of its area"));
 }
 
-/// As CAD programs write cylinders: some twenty sides.
+/// As CAD programs write cylinders, with about twenty sides.
 inline constexpr double kSmoothAngle = 0.523598775598298873;  // 30°
 
 struct StlShape {
@@ -222,7 +222,7 @@ struct ShapeSpec {
     return std::visit([]<class T>(const T&) { return T::kKey; }, kind);
   }
 
-  /// Kind of shape that it touches others as: see ContactShape::Kind.
+  /// Kind of shape used for contact: see ContactShape::Kind.
   const char* touches_as() const {
     const bool is_mesh =
         std::holds_alternative<StlShape>(kind) || std::holds_alternative<SurfaceShape>(kind);

@@ -14,7 +14,7 @@
 
 namespace buckens::loads {
 
-/// What elastic contacts resist with; what it is named by is the same for one pair and for many.
+/// Force law of elastic contacts, with the same keys for one pair and for many bodies.
 struct ContactForceSpec {
   std::optional<double> stiffness;    ///< K [N/m^n]
   std::optional<double> exponent;     ///< n
@@ -28,7 +28,7 @@ struct ContactForceSpec {
   ContactSettings settings;           ///< of what events change, as the model is built
 
  protected:
-  /// @param without what follows where neither a stiffness nor moduli are given
+  /// @param without consequence if neither a stiffness nor moduli are given
   template <class Visitor>
   void stiffness_fields(Visitor& visit, const char* without) {
     visit(base::field(
@@ -48,7 +48,7 @@ struct ContactForceSpec {
               .otherwise("1; with `modulus` 1.5"));
   }
 
-  /// @param restitution_otherwise of contacts that state none
+  /// @param restitution_otherwise restitution if none is given
   template <class Visitor>
   void loss_fields(Visitor& visit, const char* restitution_otherwise) {
     visit(base::field("restitution", restitution,
@@ -101,7 +101,7 @@ struct ContactForceSpec {
   }
 };
 
-/// Two bodies that touch: elastic with a stiffness or moduli, rigid without.
+/// Contact of two bodies: elastic with a stiffness or moduli, otherwise rigid.
 struct ContactSpec : ContactForceSpec {
   static constexpr const char* kKey = "contact";
   static constexpr const char* kDoc =
@@ -157,7 +157,7 @@ struct ContactMemberSpec {
   }
 };
 
-/// Many bodies that touch each other.
+/// Contact among many bodies.
 struct ContactsSpec : ContactForceSpec {
   static constexpr const char* kKey = "contacts";
   static constexpr const char* kDoc =

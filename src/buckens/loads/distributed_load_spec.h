@@ -22,7 +22,7 @@ struct BodyPart {
   std::string text;  ///< as written
 
   std::string body() const { return text.substr(0, text.find('/')); }
-  /// What follows the slash; empty: the whole body.
+  /// The part after the slash; empty: the whole body.
   std::string part() const {
     const std::size_t slash = text.find('/');
     return slash == std::string::npos ? "" : text.substr(slash + 1);
@@ -118,7 +118,7 @@ struct BodyForceSpec {
   }
 };
 
-/// The world is attached to an accelerating base: all bodies are subject to −a per mass.
+/// An accelerating base to which the world is fixed: all bodies are subject to −a per mass.
 struct BaseAccelerationSpec {
   static constexpr const char* kKey = "base-acceleration";
   static constexpr const char* kDoc =

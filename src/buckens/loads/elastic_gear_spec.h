@@ -10,7 +10,7 @@
 
 namespace buckens::loads {
 
-/// Two gears whose teeth are elastic and have play, held by joints of their own.
+/// Two gears with elastic teeth and backlash, held by their own joints.
 struct ElasticGearSpec {
   static constexpr const char* kKey = "elastic-gear";
   static constexpr const char* kDoc =

@@ -9,16 +9,16 @@
 
 namespace buckens::loads {
 
-/// How a rigid row stands: its force, and which part of its set the force is in. Laws number the
-/// parts as they need; 0 is a row that does nothing.
+/// Status of a rigid row: its force, and the part of its admissible set that contains the force.
+/// Laws define the numbers of the parts; 0 is an inactive row.
 struct RowStand {
   int regime = 0;
   double force = 0;  ///< along the joint coordinate [N] or [N m]
-  /// Of an open row that lets go within the step: what takes back its push, (I8).
+  /// For an open row that releases within the step: the correction of its force, (I8).
   double taken_back = 0;
 };
 
-/// A row that does not give way: while it is closed its force is whatever keeps it closed.
+/// A rigid row: while it is closed, its force is whatever keeps it closed.
 struct RigidRow {
   bool is_closed = false;
   bool holds_position = false;  ///< otherwise its rate only
@@ -55,10 +55,10 @@ struct SoftRow {
   bool is_rigid = false;  ///< closed without any give; stiffness and damping say nothing
 };
 
-/// Derivatives of a scalar with respect to the twist (w, v) of one marker, world components.
+/// Derivatives of a scalar with respect to the twist (w, v) of a marker, in world components.
 using TwistRow = Eigen::Matrix<double, 1, 6>;
 
-/// A joint coordinate at one instant: an angle including whole turns [rad] or a displacement [m].
+/// A joint coordinate at an instant: an angle with whole turns [rad] or a displacement [m].
 struct CoordinateMotion {
   double value = 0;
   double rate = 0;    ///< J V
@@ -66,7 +66,7 @@ struct CoordinateMotion {
   spatial::PairRow J = spatial::PairRow::Zero();
 };
 
-/// Everything a force law may use at one instant.
+/// Input of a force law at an instant.
 struct Sight {
   double t = 0;
   const spatial::MarkerMotion& first;
@@ -75,26 +75,26 @@ struct Sight {
   spatial::Wrench reaction{};      ///< of the law's joint, on the second marker, world axes
   const double* states = nullptr;  ///< num_states() at the start of the step; null: all zero
   RowStand stand{};                ///< of laws with a rigid row: as it is now
-  /// t and the values of all signals of the model at this instant; empty where it has none.
+  /// t and the values of all signals of the model at this instant; empty if it has none.
   std::span<const double> signals{};
-  /// Of elements with more than two markers: the third and those behind it.
+  /// For elements with more than two markers: the third and all further ones.
   std::span<const spatial::MarkerMotion> others{};
 };
 
 /// A force law between two marker frames. An applied load has the ground as its second marker.
 ///
 /// Most laws depend on time and both markers and need only evaluate() and append_soft_rows().
-/// Others depend on a joint coordinate, the reaction of their joint, or states of their own, which
-/// the model's state stores for them; these override respond() and append_tangent(). A cable has
-/// more than two markers; what it does to the others is asked for apart.
+/// Others depend on a joint coordinate, the reaction of their joint, or internal states, which the
+/// model's state stores; these override respond() and append_tangent(). A cable has more than two
+/// markers; separate functions return its effect on the others.
 class ForceElement {
  public:
   virtual ~ForceElement() = default;
 
-  /// Its effect from time and markers alone.
+  /// Its effect, from time and markers only.
   virtual Action evaluate(double t, const spatial::MarkerMotion& first,
                           const spatial::MarkerMotion& second) const = 0;
-  /// Its effect from everything it may use.
+  /// Its effect, from all available input.
   virtual Action respond(const Sight& sight) const {
     return evaluate(sight.t, sight.first, sight.second);
   }
@@ -116,47 +116,47 @@ class ForceElement {
     return respond(sight).regime;
   }
 
-  /// Adds what it does to its third marker and those behind it, one wrench for each.
+  /// Adds the wrenches on its third and further markers, one for each.
   virtual void add_to_others(const Sight& /*sight*/,
                              std::span<spatial::Wrench> /*wrenches*/) const {}
-  /// The shares of these markers in the rows of append_tangent(), row by row.
+  /// The parts of the rows of append_tangent() that belong to these markers, row by row.
   virtual void append_others_of_rows(const Sight& /*sight*/,
                                      std::vector<TwistRow>& /*rows*/) const {}
-  /// How these rows act together. @return false if each acts alone; `mix` is not written then
+  /// Coupling of these rows. @return false if they are independent; `mix` is then not written
   virtual bool mix_rows(const Sight& /*sight*/, RowMix& /*mix*/) const { return false; }
 
   /// Whether its soft row is a rigid one. Its first two states are RowStand::regime and force.
   virtual bool is_rigid() const { return false; }
 
-  /// Number of states that it keeps from step to step.
+  /// Number of its states, which persist from step to step.
   virtual int num_states() const { return 0; }
-  /// Writes these states as they are before the first step. @param states all zero
+  /// Writes the states before the first step. @param states all zero on entry
   virtual void start_states(const Sight& /*sight*/, double* /*states*/) const {}
-  /// The same when an event switches it on during a run. @param states all zero
+  /// The same if an event switches it on during a run. @param states all zero on entry
   virtual void restart_states(const Sight& sight, double* states) const {
     start_states(sight, states);
   }
-  /// Writes these states as they are at the end of a step.
+  /// Writes the states at the end of a step.
   /// @param sight at the end, with the states at the start
   virtual void find_states(const Sight& /*sight*/, double* /*states*/) const {}
 
-  /// Whether it looks at Sight::signals.
+  /// Whether it uses Sight::signals.
   virtual bool uses_signals() const { return false; }
-  /// Whether its stored energy depends on time or signals: what it gains as these change, with the
-  /// motion as it is, comes from outside and is no part of Action::active_power.
+  /// Whether its stored energy depends on time or signals. Energy gained because these change, at
+  /// fixed motion, is external and not part of Action::active_power.
   virtual bool has_driven_energy() const { return false; }
 
-  /// True for external loads: a static path multiplies them by its load factor.
+  /// Whether it is an external load, which a static path multiplies by its load factor.
   virtual bool is_applied() const { return false; }
 
   /// Number of laws of time whose values are recorded: three components, one pressure, or none.
   virtual int num_values() const { return 0; }
-  /// Their values, the first num_values() of three: components in world axes, or in those of the
-  /// first marker if follows().
+  /// Their values, num_values() of the three: components in world axes, or in axes of the first
+  /// marker if follows().
   virtual Eigen::Vector3d values(double /*t*/) const { return Eigen::Vector3d::Zero(); }
   virtual bool follows() const { return false; }
 
-  /// Whether values can be given from outside instead of the laws of time: forces and torques.
+  /// Whether values can be set from outside instead of the laws of time, as for forces and torques.
   virtual bool takes_values() const { return false; }
   /// Its effect with these values, axes as for values(). @pre takes_values()
   virtual Action act(const Eigen::Vector3d& /*values*/,
@@ -164,7 +164,7 @@ class ForceElement {
     return {};
   }
 
-  /// False if the load varies with time by a law; a static start takes its value at t = 0.
+  /// False if the load varies with time; a static start uses its value at t = 0.
   virtual bool is_constant() const { return true; }
 };
 

@@ -9,11 +9,11 @@
 
 namespace buckens::loads {
 
-/// Force on the first marker by a function of time and of the marker's motion, in world axes [N].
+/// Force on the first marker as a function of time and of the marker's motion, world axes [N].
 ///
 /// The function is called several times per step, from one thread at a time, and must return the
-/// same value for the same arguments. It provides no derivatives: a law that is stiff compared to
-/// the bodies slows down the iteration of the step; write a ForceElement with soft rows for it.
+/// same value for the same arguments. It provides no derivatives, so that a law that is stiff
+/// compared with the bodies slows down the iteration; use a ForceElement with soft rows for it.
 /// Positions are relative to Model::origin, which is zero unless the mechanism is very far from
 /// that of the world.
 class FunctionForce final : public ForceElement {

@@ -15,7 +15,7 @@ namespace buckens::loads {
 // Laws on the coordinate of a joint: its angle, including whole turns, or its displacement. Both
 // are zero as placed.
 
-/// What all of them have in common.
+/// Common to all joint laws.
 struct JointLaw {
   std::string joint;
   std::optional<base::CoordinateChoice> which;
@@ -108,7 +108,7 @@ struct SlideSpringSpec : JointLaw {
   }
 };
 
-/// Ends of the free range of a joint: elastic with a stiffness, rigid without.
+/// Limits of the free range of a joint: elastic with a stiffness, otherwise rigid.
 struct JointStop : JointLaw {
   std::optional<double> from, to;     ///< [rad] or [m]
   std::optional<double> stiffness;    ///< [N m/rad] or [N/m]
@@ -175,14 +175,14 @@ struct SlideStopSpec : JointStop {
   }
 };
 
-/// How dry friction sticks.
+/// Model of sticking in dry friction.
 enum class FrictionStick { elastic, rigid, bristles };
 
 constexpr std::array<const char*, 3> choice_names(FrictionStick) {
   return {"elastic", "rigid", "bristles"};
 }
 
-/// Dry friction, from the joint's own reaction.
+/// Dry friction, from the reaction of the joint.
 struct JointFrictionBase : JointLaw {
   base::SignalLaw coefficient;             ///< of sticking, μ_s
   std::optional<base::SignalLaw> dynamic;  ///< of sliding, μ_d; default: the same

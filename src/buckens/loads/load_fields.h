@@ -26,13 +26,13 @@ base::Field components_field(std::string name, Laws& laws, base::Dimension dimen
       .like(std::move(example));
 }
 
-/// @param owner whose axes the load may follow: "body" or "marker"
+/// @param owner of the axes that the load may follow: "body" or "marker"
 inline base::Field axes_field(LoadAxes& axes, const std::string& owner) {
   return base::field("axes", axes,
                      "world axes (`fixed`) or those of the " + owner + " (`following`)");
 }
 
-/// Signal that a load of laws of time is multiplied with.
+/// Signal that multiplies a load of laws of time.
 inline base::Field factor_field(std::string& factor) {
   return base::field("signal", factor, "name of a signal that multiplies the value")
       .like("u")

@@ -10,7 +10,7 @@
 
 namespace buckens::loads {
 
-/// A motor on a joint coordinate: what it is told, and how much it can.
+/// A motor on a joint coordinate, with its commands and limits.
 struct MotorSpec : JointLaw {
   std::optional<base::SignalLaw> force;     ///< [N m] or [N]
   std::optional<base::SignalLaw> position;  ///< aimed at [rad] or [m]
@@ -21,7 +21,7 @@ struct MotorSpec : JointLaw {
   std::optional<base::SignalLaw> power;     ///< [W]
   std::optional<double> return_time;        ///< of an exact one with a position [s]
 
-  /// Without gains it has its speed, or its position, exactly.
+  /// Without gains it follows its speed or position exactly.
   bool is_exact() const {
     return (speed || return_time) && stiffness.is_number(0.0) && damping.is_number(0.0);
   }

@@ -9,7 +9,7 @@
 
 namespace buckens::loads {
 
-/// Holds two markers no further apart than its length: rigidly, or with a stiffness.
+/// Limits the distance of two markers to its length, rigidly or with a stiffness.
 struct RopeSpec {
   static constexpr const char* kKey = "rope";
   static constexpr const char* kDoc =

@@ -10,8 +10,8 @@
 
 namespace buckens::model {
 
-/// Builds a model in code: bodies, joints, loads and sensors by value, in SI units, with the
-/// structs that a model file fills and the names of its keys.
+/// Builds a model in code from bodies, joints, loads and sensors, in SI units, with the structs
+/// that a model file fills and the names of its keys.
 ///
 /// Markers are named as in a model file: "rod/end", "rod", "ground". References returned by the
 /// functions are valid until the next call for another entry of the same kind.
@@ -62,7 +62,7 @@ class ModelBuilder {
   /// Constant force [N] or torque [N m] on a marker, world axes; Simulation::set_load changes it.
   void add_force(const std::string& name, const std::string& on, const Eigen::Vector3d& value);
   void add_torque(const std::string& name, const std::string& on, const Eigen::Vector3d& value);
-  /// Force on a marker by a function of time and motion, see loads::FunctionForce.
+  /// Force on a marker as a function of time and motion, see loads::FunctionForce.
   void add_force_law(const std::string& name, const std::string& on, loads::FunctionForce::Law law);
   /// A user-defined force law between two markers.
   void add_force_element(const std::string& name,
@@ -85,9 +85,9 @@ class ModelBuilder {
   /// A point fixed to the ground [m].
   static base::MarkerRef ground(const Eigen::Vector3d& point);
 
-  /// The whole description, for whatever has no function here.
+  /// The complete description, for everything without a function here.
   ModelDescription& description() { return description_; }
-  /// Builds and checks the mechanism; can be called again after changes.
+  /// Builds and checks the mechanism; may be called again after changes.
   /// @throws InputError, ModelError with the names of bodies, joints and markers; InputError if two
   /// parts of a kind have one name because one of them was renamed
   std::unique_ptr<BuiltModel> build() const;

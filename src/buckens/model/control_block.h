@@ -14,8 +14,8 @@ namespace buckens::model {
 
 /// A block with states x, one input u and one value y.
 ///
-/// Continuous ones give rates, ẋ = f(x, u) and y = g(x, u). Sampled ones take new states at the
-/// multiples of their sample time and hold their value between.
+/// Continuous blocks have rates ẋ = f(x, u) and values y = g(x, u). Sampled blocks update their
+/// states at multiples of their sample time and hold their value in between.
 class ControlBlock {
  public:
   virtual ~ControlBlock() = default;
@@ -24,23 +24,23 @@ class ControlBlock {
   /// Writes the states at t = 0.
   virtual void start(std::span<double> x) const = 0;
   virtual double value(std::span<const double> x, double u) const = 0;
-  /// Whether the value depends on the input of the same instant.
+  /// Whether the value depends on the input at the same instant.
   virtual bool feeds_through() const = 0;
-  /// Writes ẋ. Of sampled blocks zero.
+  /// Writes ẋ, zero for sampled blocks.
   virtual void rates(std::span<const double> x, double u, std::span<double> x_dot) const = 0;
 
   /// Whether rates and value are linear in states and input.
   virtual bool is_linear() const { return false; }
-  /// How often the value has to be differentiated until the input shows; 3 for more.
+  /// Number of times that the value must be differentiated until the input appears; 3 means more.
   virtual int relative_degree() const { return feeds_through() ? 0 : 1; }
-  /// Whether the value stays from one sample, switch or setting to the next.
+  /// Whether the value is constant between samples, switches or settings.
   virtual bool is_held() const { return false; }
 
-  /// Time between two samples [s]; 0: continuous.
+  /// Sample time [s]; 0: continuous.
   virtual double sample_time() const { return 0.0; }
-  /// Whether it is sampled at the end of every step, however long that is.
+  /// Whether it is sampled at the end of every step, whatever its length.
   virtual bool samples_each_step() const { return false; }
-  /// Takes the states of a sampled block over a sample.
+  /// Advances the states of a sampled block by one sample.
   virtual void sample(std::span<double> /*x*/, double /*u*/) const {}
 };
 
@@ -49,7 +49,7 @@ std::shared_ptr<const ControlBlock> make_linear_block(Eigen::MatrixXd A, Eigen::
                                                       Eigen::VectorXd c, double d,
                                                       Eigen::VectorXd start);
 
-/// The same from coefficients of a proper quotient by falling powers of s, at rest.
+/// The same from coefficients of a proper transfer function by falling powers of s, at rest.
 /// @pre neither is empty, the first of the denominator is not zero, and the numerator is no longer
 std::shared_ptr<const ControlBlock> make_transfer_function(const std::vector<double>& numerator,
                                                            const std::vector<double>& denominator);
@@ -76,12 +76,12 @@ std::shared_ptr<const ControlBlock> make_table_block(base::TimeLaw function);
 std::shared_ptr<const ControlBlock> make_rate_limit(double rising, double falling,
                                                     double time_constant, double start);
 
-/// y is 1 from where the input reaches `on` to where it reaches `off`, seen at the ends of steps.
+/// y is 1 from the time the input reaches `on` until it reaches `off`, evaluated at ends of steps.
 /// @param off none: it stays on
 std::shared_ptr<const ControlBlock> make_switch(double on, std::optional<double> off, bool start);
 
-/// y is its one state, which nothing moves but whoever sets it between steps. @param start its
-/// value at t = 0
+/// y is its only state, which changes only when it is set between steps. @param start its value
+/// at t = 0
 std::shared_ptr<const ControlBlock> make_setting(double start);
 
 /// y is the input at the last sample. @param sample [s]

@@ -10,19 +10,19 @@
 
 namespace buckens::model {
 
-/// The value of a signal by a function written in code: of time and of other signals at the same
-/// instant.
+/// The value of a signal from a function in code, which depends on time and on other signals at
+/// the same instant.
 ///
-/// A block without states. Other blocks have one input, this one takes all signals; who evaluates
-/// signals asks function_of() first.
+/// A block without states. Other blocks have one input, this one takes all signals; evaluation of
+/// signals calls function_of() first.
 class FunctionSignal final : public ControlBlock {
  public:
-  /// f(t, values of the inputs). Called several times per step, it must return the same for the
-  /// same arguments.
+  /// f(t, values of the inputs). It is called several times per step and must return the same
+  /// value for the same arguments.
   using Law = std::function<double(double t, std::span<const double> values)>;
 
   /// @param name of the signal, for messages
-  /// @param inputs names of signals, @param places of these among all signals
+  /// @param inputs names of signals, @param places their indices among all signals
   FunctionSignal(std::string name, std::vector<std::string> inputs, std::vector<int> places,
                  Law law);
 
@@ -46,7 +46,7 @@ class FunctionSignal final : public ControlBlock {
   Law law_;
 };
 
-/// The function that gives the value of a signal, or null.
+/// The function that computes the value of a signal, or null.
 const FunctionSignal* function_of(const Signal& signal);
 
 }  // namespace buckens::model

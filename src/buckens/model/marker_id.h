@@ -7,7 +7,7 @@
 
 namespace buckens::model {
 
-/// Index of the ground in place of a body.
+/// Body index that stands for the ground.
 inline constexpr int kGround = -1;
 
 /// A marker of a body, or a frame fixed to the ground.

@@ -40,7 +40,7 @@ struct MotionReading {
   int load = -1;                                     ///< index into Model::loads
 };
 
-/// Which value of a sensor a signal takes at the end of every step.
+/// Value of a sensor that a signal samples at the end of every step.
 struct HeldReading {
   std::string sensor;
   std::optional<std::string> component;
@@ -78,7 +78,7 @@ struct Signal {
 
 /// All signals of a model.
 struct SignalSet {
-  /// In the order of the model file, that of the variables of formulas; then those of drives.
+  /// In the order of the model file, which is that of the variables of formulas; then drives.
   std::vector<Signal> all;
   std::vector<int> order;     ///< in which they can be evaluated, one after the other
   std::vector<int> steering;  ///< those of `order` that drives depend on
@@ -86,7 +86,7 @@ struct SignalSet {
   double rho = 1;             ///< spectral radius of their integration at infinite frequency
 
   bool empty() const { return all.empty(); }
-  /// Whether some are read from sensors at the ends of steps; samples are then taken after that.
+  /// Whether some are read from sensors at the ends of steps; blocks are then sampled afterwards.
   bool has_held_readings() const {
     return std::any_of(all.begin(), all.end(), [](const Signal& one) { return bool(one.held); });
   }

@@ -10,8 +10,8 @@
 
 namespace buckens::model {
 
-/// Inertial coupling of one flexible body at one instant: the terms that the large solve treats as
-/// given. Part of the state because steps extrapolate from it.
+/// Inertial coupling of a flexible body at one instant: the terms that the large solve treats as
+/// given. It is part of the state because steps extrapolate from it.
 struct Coupling {
   double t = 0;                   ///< the instant [s]
   body::DeformedMoments moments;  ///< only what is quadratic in d: J₂, J̇₂, l, l̇
@@ -19,7 +19,7 @@ struct Coupling {
                         ///< empty if the level keeps none
 };
 
-/// Motion of one body at time t: everything needed to continue bit for bit.
+/// Motion of a body at time t, sufficient for a bit-identical continuation.
 struct BodyState {
   body::FrameMotion frame;
   Eigen::Vector3d w_dot = Eigen::Vector3d::Zero();  ///< body axes [rad/s²]
@@ -31,33 +31,33 @@ struct BodyState {
   Coupling coupling, coupling_before, coupling_earlier;  ///< at this and the two previous steps
 };
 
-/// Memory of rows and force laws: part of the state because the next step depends on it.
+/// Memory of rows and force laws, part of the state because the next step depends on it.
 struct RowMemory {
   std::vector<joints::CountedValue> coordinates;  ///< one per Model::coordinates
   linalg::Vector laws;          ///< states of force laws, from Load::first_state of each
   linalg::Vector rows;          ///< states of joint rows, from Joint::first_state of each
   std::vector<double> signals;  ///< t and the values of all signals then; empty without signals
-  /// States of blocks, their rates, and the rates of the method, SignalSet::num_states each.
+  /// States of blocks, their rates, and rates of the time integration; SignalSet::num_states each.
   linalg::Vector blocks;
   double block_step = 0;       ///< to which the rates of the method belong [s]
   std::vector<NearPair> near;  ///< ascending
   linalg::Vector near_states;  ///< of their contacts, one after the other
   double near_time = 0;        ///< when they were found [s]
-  /// In statics, which have no states of laws: how rows stand that hold at rest, and what frozen
-  /// friction holds with, one entry per Model::loads. Empty in motion.
+  /// In statics, where laws have no states: status of rows that hold at rest, and forces of frozen
+  /// friction, one entry per Model::loads. Empty in motion.
   std::vector<loads::RowStand> at_rest;
-  /// What events have switched off: one entry per Model::loads and Model::joints; empty: nothing.
+  /// Switched off by events: one entry per Model::loads and Model::joints; empty: none.
   std::vector<char> off, released;
 
   bool is_off(std::size_t load) const { return !off.empty() && off[load] != 0; }
   bool is_released(std::size_t joint) const { return !released.empty() && released[joint] != 0; }
 };
 
-/// Values given from outside instead of laws of time, one entry per load of the model: components
-/// of a force [N] or torque [N m] in the axes of the load. Empty: none given.
+/// Values set from outside in place of laws of time, one entry per load of the model: components
+/// of a force [N] or torque [N m] in the axes of the load. Empty: none are set.
 using LoadInputs = std::vector<std::optional<Eigen::Vector3d>>;
 
-/// What a step before the last leaves for the forecast of the next.
+/// Data of an earlier step for the prediction of the next one.
 struct PastStep {
   double t = 0;                  ///< instant to which it refers [s]
   linalg::Vector lambda;         ///< [N, N m]; empty if nothing is known

@@ -15,14 +15,14 @@ namespace buckens::model {
 struct Model;
 struct State;
 
-/// Where a node or element of a whole mesh is among the bodies of the model.
+/// Location of a node or element of a whole mesh among the bodies of the model.
 struct MeshCopy {
   int body = -1;   ///< index into Model::bodies
   int index = -1;  ///< of the node, line or solid element in that body
 };
 
-/// A body of the model file. It is one body of the model, or the connected parts of its mesh with a
-/// frame each, which are consecutive in Model::bodies and tied at the nodes they share.
+/// A body of the model file: one body of the model, or the connected parts of its mesh with a frame
+/// each, which are consecutive in Model::bodies and tied at shared nodes.
 struct WholeBody {
   std::string name;
   SourceLocation where;  ///< in the model file
@@ -42,7 +42,7 @@ struct WholeBody {
   bool is_divided() const { return count > 1; }
 };
 
-/// Frame of a whole body: that of its one body, or the rigid motion that best fits its parts.
+/// Frame of a whole body: that of its only body, or the rigid motion that best fits its parts.
 ///
 /// The origin is the mass centre. The axes are those in which Σ∫|R s₀ − s|²dm over the rigidly
 /// moving parts is least; the velocities carry its linear and angular momentum.

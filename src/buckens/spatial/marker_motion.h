@@ -5,8 +5,8 @@
 
 namespace buckens::spatial {
 
-/// Position and velocity of one marker frame, all in world components: everything a joint or a
-/// load knows about the body behind it.
+/// Position and velocity of a marker frame, in world components: all that a joint or a load knows
+/// about the body.
 struct MarkerMotion {
   Eigen::Vector3d p = Eigen::Vector3d::Zero();      ///< origin [m]
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  ///< R_W,marker
@@ -14,8 +14,8 @@ struct MarkerMotion {
   Eigen::Vector3d v = Eigen::Vector3d::Zero();      ///< velocity of the origin [m/s]
 };
 
-/// The part of a marker's acceleration that remains when the accelerations of the body's own
-/// coordinates are zero, in world components.
+/// Acceleration of a marker if the accelerations of the body's coordinates are zero, in world
+/// components.
 struct MarkerBias {
   Eigen::Vector3d alpha = Eigen::Vector3d::Zero();  ///< angular [rad/s²]
   Eigen::Vector3d a = Eigen::Vector3d::Zero();      ///< of the origin [m/s²]
@@ -33,7 +33,7 @@ struct Wrench {
   }
 };
 
-/// Row of derivatives of one scalar with respect to the twists of two markers:
+/// Row of derivatives of a scalar with respect to the twists of two markers:
 /// (w_F, v_F, w_M, v_M), each 3 in world components.
 using PairRow = Eigen::Matrix<double, 1, 12>;
 

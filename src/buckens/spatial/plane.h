@@ -5,7 +5,7 @@
 
 namespace buckens::spatial {
 
-/// The plane in which a planar model moves. The value is the index of the normal axis.
+/// The plane of motion of a planar model. The value is the index of the normal axis.
 enum class Plane { yz = 0, zx = 1, xy = 2 };
 
 inline int normal_index(Plane plane) { return static_cast<int>(plane); }

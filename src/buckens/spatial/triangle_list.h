@@ -8,7 +8,7 @@
 
 namespace buckens::spatial {
 
-/// A surface of triangles: corners counter-clockwise as seen from outside.
+/// A triangulated surface, with corners counter-clockwise seen from outside.
 struct TriangleList {
   std::vector<Eigen::Vector3d> points;  ///< [m]; several may be at one place
   std::vector<std::array<int, 3>> triangles;

@@ -20,7 +20,7 @@ constexpr std::array<const char*, 6> choice_names(NodeVariable) {
   return {"x", "y", "z", "rotation-x", "rotation-y", "rotation-z"};
 }
 
-/// Nodes of a structure that follow another one as a rigid body.
+/// Nodes of a structure that follow another node as a rigid body.
 struct RigidLinkSpec {
   SourceLocation where;
   std::string reference;
@@ -39,7 +39,7 @@ struct RigidLinkSpec {
   }
 };
 
-/// A node of a structure that follows the mean motion of others.
+/// A node of a structure that follows the mean motion of other nodes.
 struct AverageLinkSpec {
   SourceLocation where;
   std::string reference;
@@ -119,7 +119,7 @@ struct NodeSpringSpec {
   }
 };
 
-/// Links between the nodes of a structure, solved before the equations of motion are formed.
+/// Links between the nodes of a structure, eliminated before the equations of motion are formed.
 struct StructureLinksSpec {
   SourceLocation where;
   std::vector<RigidLinkSpec> rigid;

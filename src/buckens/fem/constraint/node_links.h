@@ -22,9 +22,9 @@ struct AverageLink {
   int reference = 0;
   std::vector<int> nodes;
   std::vector<double> weights;  ///< as many as nodes, positive
-  /// Variables of the reference that follow. The rest stays free.
+  /// Variables of the reference node that follow. The others stay free.
   std::array<bool, 6> variables = {true, true, true, true, true, true};
-  /// Per node which of its displacements count, model axes; empty: all.
+  /// For each node the displacements that count, model axes; empty: all.
   std::vector<std::array<bool, 3>> components;
 };
 

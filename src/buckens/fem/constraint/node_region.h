@@ -9,7 +9,7 @@
 
 namespace buckens::fem {
 
-/// Nodes that together carry a frame, each with its share of the surface.
+/// Nodes that carry a frame, each weighted with its share of the surface.
 struct NodeRegion {
   std::vector<int> nodes;   ///< ascending
   Eigen::VectorXd weights;  ///< shares, not negative, sum 1
@@ -23,18 +23,18 @@ struct NodeRegion {
   bool turns() const;
 };
 
-/// The nodes of a set of faces, weighted by the area that belongs to each.
+/// The nodes of a set of faces, weighted by their areas.
 NodeRegion face_region(const Structure& structure, const FaceSet& faces);
 
-/// Any nodes. Their weights are areas of the surface faces and shells all of whose nodes are among
-/// them; if there are none, all nodes count equally.
+/// Any nodes. Weights are areas of those surface faces and shells whose nodes are all among them;
+/// if there are none, all nodes count equally.
 NodeRegion node_region(const Structure& structure, std::vector<int> nodes);
 
 /// Surface faces of the mesh (those of one solid element only) whose nodes are all among the given
 /// ones.
 std::vector<ElementFace> faces_within(const Structure& structure, const std::vector<int>& nodes);
 
-/// Nodes with given weights; each node once.
+/// Nodes with given weights, each node once.
 /// @param weights positive, as many as nodes
 NodeRegion weighted_region(const std::vector<Node>& all, const std::vector<int>& nodes,
                            const std::vector<double>& weights);

@@ -44,13 +44,13 @@ struct PointRows {
   bool has_rotation = false;  ///< false where the mesh has no rotations (bars)
 };
 
-/// What a block needs from its body.
+/// Data that a block needs from its body.
 struct MeshView {
   const std::vector<Node>& nodes;
   const DofMap& dofs;
 };
 
-/// All elements of one kind in a body: one virtual call processes the whole block.
+/// All elements of one kind in a body, so that one virtual call processes the whole block.
 class ElementBlock {
  public:
   virtual ~ElementBlock() = default;
@@ -63,7 +63,7 @@ class ElementBlock {
     const auto all = nodes(element);
     return {all.front(), all.back()};
   }
-  /// Whether the elements are lines (beams, bars) rather than on a node.
+  /// Whether the elements are lines (beams, bars) rather than on a single node.
   virtual bool is_line() const = 0;
   /// Whether the elements are volumes.
   virtual bool is_solid() const { return false; }
@@ -71,9 +71,9 @@ class ElementBlock {
   virtual bool is_shell() const { return false; }
   /// Whether the elements connect their nodes.
   virtual bool holds_nodes() const { return is_line() || is_solid() || is_shell(); }
-  /// Whether the elements give rotations to their nodes.
+  /// Whether the nodes of the elements have rotations.
   virtual bool has_rotations() const = 0;
-  /// Null for elements without material or section.
+  /// Null for elements without a material or section.
   virtual const Material* material(int element) const = 0;
   virtual const Section* section(int element) const = 0;
   /// Section at the first (0) or second (1) end of a line element.

@@ -29,7 +29,7 @@ struct Material {
   double rho = 0;                ///< density [kg/m³], zero allowed
   double damping_mass = 0;       ///< α [1/s]
   double damping_stiffness = 0;  ///< β [s]
-  /// Solids and layers of shells: used instead of E, ν and G.
+  /// For solids and layers of shells, instead of E, ν and G.
   std::optional<Orthotropy> orthotropy = std::nullopt;
   bool damps_held_motion = false;  ///< what α acts on, see FeModel::damps_held_motion
 

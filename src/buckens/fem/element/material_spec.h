@@ -14,15 +14,15 @@
 
 namespace buckens::fem {
 
-/// Which vibrations a damping ratio refers to.
+/// Vibrations to which a damping ratio refers.
 enum class DampedModes { held, free };
 
 constexpr std::array<const char*, 2> choice_names(DampedModes) { return {"held", "free"}; }
 
 /// Rayleigh damping C = αM + βK, given by α and β or by a damping ratio at one or two frequencies.
 ///
-/// α acts on motion relative to the body frame. That is the whole motion in a vibration of the free
-/// body, but only a small part in one of the body held by its joints, since the frame follows; see
+/// α acts on motion relative to the body frame: all of the motion if the free body vibrates, but
+/// only a small part if joints hold the body, since the frame follows; see
 /// FeModel::damps_held_motion.
 struct DampingSpec {
   SourceLocation where;
@@ -32,20 +32,20 @@ struct DampingSpec {
   std::vector<double> at;       ///< f1, or f1 < f2 [Hz]
   DampedModes of = DampedModes::held;
 
-  /// α, also where ζ is given: at two frequencies 2ζ ω1 ω2/(ω1+ω2), at one 0.
+  /// α; from ζ at two frequencies 2ζ ω1 ω2/(ω1+ω2), at one frequency 0.
   double alpha() const {
     if (!ratio) return mass;
     return at.size() == 2 ? 2.0 * kTurn * *ratio * at[0] * at[1] / (at[0] + at[1]) : 0.0;
   }
-  /// β, also where ζ is given: at two frequencies 2ζ/(ω1+ω2), at one 2ζ/ω1.
+  /// β; from ζ at two frequencies 2ζ/(ω1+ω2), at one frequency 2ζ/ω1.
   double beta() const {
     if (!ratio) return stiffness;
     double sum = 0;
     for (const double frequency : at) sum += kTurn * frequency;
     return sum > 0.0 ? 2.0 * *ratio / sum : 0.0;
   }
-  /// Whether α acts on the motion that the joints leave the body, rather than that relative to the
-  /// frame.
+  /// Whether α acts on the motion that the joints allow the body, rather than on motion relative to
+  /// the frame.
   bool is_of_held_motion() const { return ratio && at.size() == 2 && of == DampedModes::held; }
 
   template <class Visitor>

@@ -9,8 +9,8 @@ namespace buckens::fem {
 
 /// Two-node bars: axial stiffness only, three translations per node, consistent mass.
 ///
-/// All three displacement components are linear along the bar; its mass is on the line. It has no
-/// rotary inertia about its axis.
+/// All three displacement components are linear along the bar. Its mass is on the line, without
+/// rotary inertia about the axis.
 class BarBlock final : public ElementBlock {
  public:
   /// @return index of the element in this block
@@ -22,7 +22,7 @@ class BarBlock final : public ElementBlock {
   bool has_rotations() const override { return false; }
   const Material* material(int element) const override { return &at(element).material; }
   const Section* section(int element) const override { return &at(element).section; }
-  /// As of a beam without `up`.
+  /// As for a beam without `up`.
   Eigen::Matrix3d line_axes(const std::vector<Node>& nodes, int element) const override;
 
   /// A subset of the elements, in the given order.

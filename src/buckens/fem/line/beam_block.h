@@ -10,7 +10,7 @@
 
 namespace buckens::fem {
 
-/// What all elements of one beam share.
+/// Properties common to all elements of one beam.
 struct BeamProperties {
   Material material;
   Section section;
@@ -19,10 +19,10 @@ struct BeamProperties {
   /// ½∫ρI_p(ω·t+θ̇_x)² dx, a line with torsional flywheels. On: every material point contributes.
   bool rotary_inertia = false;
   std::optional<Eigen::Vector3d> up = std::nullopt;  ///< hint for the local z axis, model axes
-  /// Of a tapered beam; `section` is then ignored.
+  /// Sections of a tapered beam; `section` is then ignored.
   SectionLaw taper = nullptr;
 
-  /// Rotary inertia as usual for the theory: on for Timoshenko, off for Euler–Bernoulli.
+  /// Usual choice of rotary inertia: on for Timoshenko, off for Euler–Bernoulli beams.
   static BeamProperties of(const Material& material, const Section& section, BeamTheory theory) {
     return {material, section, theory, theory == BeamTheory::timoshenko};
   }
@@ -52,7 +52,7 @@ class BeamBlock final : public ElementBlock {
   bool is_line() const override { return true; }
   bool has_rotations() const override { return true; }
   const Material* material(int element) const override { return &of(at(element)).material; }
-  /// Of a tapered element, the one at its middle.
+  /// For a tapered element, the section at its middle.
   const Section* section(int element) const override;
   const Section* end_section(int element, int end) const override;
   Eigen::Matrix3d line_axes(const std::vector<Node>& nodes, int element) const override;
@@ -96,7 +96,7 @@ class BeamBlock final : public ElementBlock {
     return own != nullptr ? own->middle : of(element).section;
   }
   LineFrame frame(const std::vector<Node>& nodes, const Element& element) const;
-  /// Interpolation with the shear parameters at the middle.
+  /// Interpolation with the shear parameters at mid-length.
   BeamShape shape_of(const Element& element, const LineFrame& axes) const;
   Eigen::Matrix<double, 12, 12> local_stiffness(const Element& element, double length) const;
 

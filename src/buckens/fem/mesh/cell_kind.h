@@ -5,7 +5,7 @@
 
 namespace buckens::fem {
 
-/// Shapes of the elements in mesh files, named by their nodes. Corners come first, then the
+/// Shapes of elements in mesh files, named by their number of nodes. Corners come first, then the
 /// mid-side nodes in the order of Abaqus (C3D20, C3D15, C3D10), which is also that of VTK. Gmsh,
 /// Nastran and universal files order some kinds differently; their readers reorder them.
 enum class CellKind {

@@ -13,8 +13,8 @@ struct Cylinder {
   Eigen::Vector3d to = Eigen::Vector3d::UnitZ();   ///< centre of the top [m]
   double outer_radius = 1;                         ///< [m]
   double inner_radius = 0;                         ///< [m], zero without a bore
-  /// Number of elements in radial, circumferential and axial direction. Without a bore the first
-  /// counts the rings around a square core that has a quarter of the second on each side.
+  /// Numbers of elements in radial, circumferential and axial direction. Without a bore, the first
+  /// counts rings around a square core, whose sides each have a quarter of the second.
   std::array<int, 3> divisions = {1, 8, 1};
 };
 

@@ -36,7 +36,7 @@ struct ImportedLayer {
   double angle = 0;  ///< of material direction 1 from the shell's reference direction [rad]
 };
 
-/// What the elements of a block are made of.
+/// Material and section of the elements in a block.
 struct ImportedProperty {
   std::string name;  ///< element set, physical group, "PSHELL 3": key of `materials` in model files
   PropertyKind kind = PropertyKind::solid;
@@ -47,10 +47,10 @@ struct ImportedProperty {
   std::optional<SectionSpec> section;   ///< of a beam or bar
   std::optional<bool> shear_flexible;   ///< of a beam: Timoshenko or Euler–Bernoulli
   std::optional<Eigen::Matrix3d> axes;  ///< material axes 1, 2, 3 as columns, in mesh axes
-  /// Without axes, the x axis of a shell is along the first side of each element rather than close
+  /// If no axes are given, the x axis of a shell is along the first side of each element, not close
   /// to the x axis of the mesh.
   bool along_first_side = false;
-  /// Why material or section is missing although the file gives something; without a full stop.
+  /// Why material or section is missing although the file defines one; without a full stop.
   std::string lacking;
   int line = 0;
 };
@@ -60,7 +60,7 @@ struct ImportedNodeSet {
   std::vector<int> nodes;  ///< ascending
 };
 
-/// Elements are numbered through all blocks.
+/// Elements are numbered consecutively over all blocks.
 struct ImportedElementSet {
   std::string name;
   std::vector<int> elements;  ///< ascending
@@ -129,17 +129,17 @@ struct ImportNote {
   std::string text;  ///< a sentence saying what was done with it
   int line = 0;      ///< 0: the whole file
   int count = 1;     ///< how often it occurred
-  /// The model file specifies these things anyway (loads, supports, output): nothing to worry
-  /// about.
+  /// Harmless: the model file specifies these data anyway, as for loads, supports and requests
+  /// for output.
   bool is_expected = false;
-  /// Mass or stiffness is missing because the model file asks for it: results are doubtful.
+  /// Mass or stiffness is missing at the request of the model file: results are doubtful.
   bool is_doubtful = false;
 };
 
-/// A mesh as in a file, in the units of the file: what all mesh readers return.
+/// A mesh as in a file, in the units of the file: the result of all mesh readers.
 ///
-/// Readers check that numbers are finite, that references exist and that counts agree. They never
-/// leave out an element silently: whatever they cannot use is listed in `notes`.
+/// Readers check that numbers are finite, references exist and counts agree. They never omit an
+/// element silently: `notes` lists everything that they cannot use.
 struct ImportedMesh {
   std::string file;
   std::string format;                  ///< "Gmsh 4.1 binary", "Abaqus", "Nastran"

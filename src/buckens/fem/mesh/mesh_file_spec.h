@@ -18,7 +18,7 @@
 
 namespace buckens::fem {
 
-/// Units of length of mesh files, which do not state their own.
+/// Length units of mesh files, which do not state their own.
 enum class LengthUnit { m, dm, cm, mm, um, inch, foot };
 
 constexpr std::array<const char*, 7> choice_names(LengthUnit) {
@@ -31,7 +31,7 @@ constexpr double size_of(LengthUnit unit) {
   return sizes[static_cast<std::size_t>(unit)];
 }
 
-/// Units of mass of mesh files.
+/// Mass units of mesh files.
 enum class MassUnit { kg, t, g, lb, slinch };
 
 constexpr std::array<const char*, 5> choice_names(MassUnit) {
@@ -78,7 +78,7 @@ struct MeshFileSpec {
   }
 };
 
-/// What a model file adds to an imported mesh: materials, sections, point masses and links.
+/// Additions of a model file to an imported mesh: materials, sections, point masses and links.
 struct GroupMaterials {
   // In mesh_file_spec.cpp, because they reach through all members: two to five seconds of compiling
   // each.
@@ -148,7 +148,7 @@ struct FaceColorSpec {
   }
 };
 
-/// Faces of a STEP file by their numbers there.
+/// Faces of a STEP file by their numbers in it.
 struct FaceNumbersSpec {
   static constexpr const char* kKey = "numbers";
   static constexpr const char* kDoc = "faces by number, as `buckens mesh-info` lists them";
@@ -181,7 +181,7 @@ struct FaceLabelSpec {
   }
 };
 
-/// Faces of a STEP file under a name for interfaces and loads. By position: those wholly inside the
+/// Named faces of a STEP file for interfaces and loads. By position: faces completely inside the
 /// sphere, box or cylinder, or in the plane.
 struct GeometryFaceSpec {
   std::string name;
@@ -196,7 +196,7 @@ struct GeometryFaceSpec {
   }
 };
 
-/// A part from a STEP file, meshed by Gmsh, made a body.
+/// A body from a part in a STEP file, meshed by Gmsh.
 struct GeometrySpec : GroupMaterials {
   static constexpr const char* kKey = "geometry";
   static constexpr const char* kDoc = "flexible body: a part from a STEP file, meshed with Gmsh";

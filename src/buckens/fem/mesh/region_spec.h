@@ -31,7 +31,7 @@ struct NamedFaceSpec {
   }
 };
 
-/// Nodes by their own name or that of a set.
+/// Nodes by name, or by the name of a set.
 struct NodeSetSpec {
   static constexpr const char* kKey = "set";
   static constexpr const char* kDoc = "nodes by name, one by one or as sets of a mesh file";
@@ -49,7 +49,7 @@ struct NodeSetSpec {
   }
 };
 
-/// What selections by position have in common.
+/// Common to all selections by position.
 struct PlaceSelection {
   SourceLocation where;
   std::optional<double> tolerance;  ///< [m]
@@ -108,7 +108,7 @@ struct BoxSelection : PlaceSelection {
   }
 };
 
-/// Nodes in a cylinder, for instance those of a bore.
+/// Nodes in a cylinder, such as those of a bore.
 struct CylinderSelection : PlaceSelection {
   static constexpr const char* kKey = "cylinder";
   static constexpr const char* kDoc = "the nodes in a round cylinder, such as those of a bore";

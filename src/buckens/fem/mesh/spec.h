@@ -42,7 +42,7 @@ struct BoxMeshSpec : SolidElementSpec {
   }
 };
 
-/// What round solids have in common.
+/// Common to all round solids.
 struct RoundMeshSpec : SolidElementSpec {
   std::array<int, 3> divisions = {1, 8, 1};
 
@@ -60,7 +60,7 @@ struct RoundMeshSpec : SolidElementSpec {
   }
 };
 
-/// What round solids between two points have in common.
+/// Common to round solids between two points.
 struct StraightRoundMeshSpec : RoundMeshSpec {
   Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< centre of the bottom [m]
   Eigen::Vector3d to = Eigen::Vector3d::Zero();    ///< centre of the top [m]
@@ -170,7 +170,7 @@ struct DiscMeshSpec : RoundMeshSpec {
   }
 };
 
-/// A body made of a mesh that is generated or read from a file.
+/// A body with a mesh that is generated or read from a file.
 struct MeshSpec : GroupMaterials {
   static constexpr const char* kKey = "mesh";
   static constexpr const char* kDoc = "flexible body: a mesh, generated or from a file";
@@ -184,7 +184,7 @@ struct MeshSpec : GroupMaterials {
 
   bool is_file() const { return std::holds_alternative<MeshFileSpec>(shape); }
   LengthUnit unit_of_length() const { return length_unit.value_or(LengthUnit::m); }
-  /// Tonnes go with millimetres: then forces are in N and stresses in MPa.
+  /// Tonnes suit millimetres: forces are then in N and stresses in MPa.
   MassUnit unit_of_mass() const {
     return mass_unit.value_or(unit_of_length() == LengthUnit::mm ? MassUnit::t : MassUnit::kg);
   }

@@ -26,7 +26,7 @@ class PointMassBlock final : public ElementBlock {
   double mass(int element) const { return at(element).mass; }
   const Eigen::Matrix3d& inertia(int element) const { return at(element).inertia; }
 
-  /// @throws ModelError also for an inertia on a node without rotations
+  /// @throws ModelError also if a node with inertia has no rotations
   void check(const MeshView& mesh) const override;
   void add_mass(const std::vector<Node>& nodes, MassMoment& sum) const override;
   void add_inertia(const MeshView& mesh, const Eigen::Vector3d& com,

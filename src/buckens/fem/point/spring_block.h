@@ -12,8 +12,8 @@ namespace buckens::fem {
 ///
 ///     Δ = (u_b + θ_b × (m − x_b) − u_a − θ_a × (m − x_a), θ_b − θ_a).
 ///
-/// So rigid motion does not strain springs. No mass. Between nodes without rotations, only
-/// directions that need none can have stiffness: all translations if the nodes coincide.
+/// Rigid motion therefore does not strain springs. They have no mass. Between nodes without
+/// rotations only directions that need none can have stiffness: all translations if nodes coincide.
 class SpringBlock final : public ElementBlock {
  public:
   using Stiffness = Eigen::Matrix<double, 6, 6>;
@@ -30,8 +30,8 @@ class SpringBlock final : public ElementBlock {
   const Material* material(int /*element*/) const override { return nullptr; }
   const Section* section(int /*element*/) const override { return nullptr; }
 
-  /// @throws ModelError for a stiffness that is not symmetric and positive semi-definite, or that
-  /// needs rotations which the nodes do not have
+  /// @throws ModelError if the stiffness is not symmetric and positive semi-definite, or needs
+  /// rotations that the nodes do not have
   void check(const MeshView& mesh) const override;
   void add_mass(const std::vector<Node>& /*nodes*/, MassMoment& /*sum*/) const override {}
   void add_inertia(const MeshView& /*mesh*/, const Eigen::Vector3d& /*com*/,

@@ -28,7 +28,7 @@ class ShellBlock final : public ElementBlock {
   /// @throws ModelError for any other number of nodes
   int add(std::span<const int> nodes, int section);
 
-  /// Sets the number by which messages name an element: that in its file rather than index + 1.
+  /// Sets the number of an element in messages: that in its file instead of index + 1.
   void set_number(int element, std::int64_t number) {
     elements_.at(static_cast<std::size_t>(element)).number = number;
   }
@@ -40,7 +40,7 @@ class ShellBlock final : public ElementBlock {
   bool is_line() const override { return false; }
   bool is_shell() const override { return true; }
   bool has_rotations() const override { return true; }
-  /// The material of the first layer.
+  /// Material of the first layer.
   const Material* material(int element) const override {
     return &shell_section(element).layers.front().material;
   }

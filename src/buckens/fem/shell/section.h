@@ -19,14 +19,14 @@ struct ShellLayer {
   double angle = 0;  ///< of material direction 1 from the shell's x axis, about its normal [rad]
 };
 
-/// What all elements of one shell share: layers from the negative to the positive side of the
+/// Common to all elements of one shell: layers from the negative to the positive side of the
 /// normal. One layer makes a homogeneous shell.
 struct ShellSection {
   std::vector<ShellLayer> layers;
   double offset = 0;  ///< of the middle surface from the nodes, along the normal [m]
   /// The x axis of the shell is this direction (model axes) projected onto it.
   std::optional<Eigen::Vector3d> direction;
-  /// Without `direction`: x along the first side of each element rather than close to model x.
+  /// Without `direction`: x is along the first side of each element, not close to model x.
   bool along_first_side = false;
 
   static ShellSection homogeneous(const Material& material, double thickness, double offset = 0) {
@@ -61,9 +61,9 @@ struct ShellStiffness {
 };
 ShellStiffness shell_stiffness(const ShellSection& section);
 
-/// @param where beginning of the message
-/// @throws ModelError for no layer, a thickness that is not positive, impossible constants, or
-/// damping that differs between layers
+/// @param where start of the message
+/// @throws ModelError if there is no layer, a thickness is not positive, constants are impossible,
+/// or damping differs between layers
 void check_shell_section(const std::string& where, const ShellSection& section);
 
 }  // namespace buckens::fem

@@ -9,12 +9,12 @@
 
 namespace buckens::fem {
 
-/// Largest number of nodes of a shell element.
+/// Maximum number of nodes of a shell element.
 inline constexpr int kMostShellNodes = 8;
 
 /// One vector per node of a shell element, column by column.
 using ShellVectors = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMostShellNodes>;
-/// Slopes of the shape functions along two coordinates, node by node.
+/// Derivatives of the shape functions along two coordinates, node by node.
 using ShellSlope = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMostShellNodes>;
 
 /// Shells have 3, 4, 6 or 8 nodes: corners counter-clockwise, then the nodes on the sides, starting
@@ -27,8 +27,8 @@ constexpr Eigen::Index num_shell_corners(Eigen::Index num_nodes) {
   return is_shell_triangle(num_nodes) ? 3 : 4;
 }
 
-/// Shape functions of the nodes, and their slopes along the natural coordinates: [−1, 1]² of
-/// quadrilaterals, r, s ≥ 0 with r + s ≤ 1 of triangles. Eight nodes: serendipity functions.
+/// Shape functions of the nodes, and their derivatives along the natural coordinates: [−1, 1]² for
+/// quadrilaterals, r, s ≥ 0 with r + s ≤ 1 for triangles. Eight nodes: serendipity functions.
 struct ShellShape {
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostShellNodes, 1> N;
   ShellSlope slope;
@@ -39,7 +39,7 @@ ShellShape shell_shape(Eigen::Index num_nodes, double r, double s);
 std::span<const std::array<double, 2>> shell_node_places(Eigen::Index num_nodes);
 /// The nodes in order around the element.
 std::span<const int> shell_rim(Eigen::Index num_nodes);
-/// The element in pieces of three (fourth −1) or four nodes for drawing.
+/// The element divided into pieces of three (fourth −1) or four nodes for drawing.
 std::span<const std::array<int, 4>> shell_pieces(Eigen::Index num_nodes);
 
 struct ShellRulePoint {

@@ -37,7 +37,7 @@ struct ShellLayerSpec {
   }
 };
 
-/// What shells have in common. Exactly one of thickness and layers is given.
+/// Common to all shells. Exactly one of thickness and layers is given.
 struct ShellPropertySpec {
   std::optional<double> thickness;  ///< [m]
   std::vector<ShellLayerSpec> layers;

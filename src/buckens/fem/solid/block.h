@@ -29,7 +29,7 @@ class SolidBlock final : public ElementBlock {
   /// A hex8 with full integration.
   int add(const std::array<int, 8>& nodes, int material);
 
-  /// Sets the number by which messages name an element: that in its file rather than index + 1.
+  /// Sets the number of an element in messages: that in its file instead of index + 1.
   void set_number(int element, std::int64_t number) {
     elements_.at(static_cast<std::size_t>(element)).number = number;
   }

@@ -34,7 +34,7 @@ std::vector<int> face_nodes(const SolidBlock& solids, const ElementFace& face);
 /// All nodes of a set, ascending, each once.
 std::vector<int> face_set_nodes(const SolidBlock& solids, const std::vector<ElementFace>& faces);
 
-/// What loads and averages need of one face, node by node in the order of face_nodes().
+/// Data of one face for loads and averages, node by node in the order of face_nodes().
 struct FaceIntegrals {
   std::vector<int> nodes;
   Eigen::VectorXd area;     ///< ∫ N dA [m²]: a uniform traction's share; corners may be negative
@@ -45,7 +45,7 @@ struct FaceIntegrals {
   Eigen::VectorXd positive_area;
 };
 
-/// Integrals over a face by a rule that is exact for plane faces with straight edges.
+/// Integrals over a face; exact for plane faces with straight edges.
 FaceIntegrals face_integrals(const SolidBlock& solids, const std::vector<Node>& nodes,
                              const ElementFace& face);
 

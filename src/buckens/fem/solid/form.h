@@ -21,7 +21,7 @@ constexpr std::array<const char*, 7> choice_names(SolidKind) {
   return {"hex8", "hex20", "tet4", "tet10", "wedge6", "wedge15", "pyramid5"};
 }
 
-/// How the stiffness of a solid element is integrated.
+/// Integration of the stiffness of a solid element.
 enum class SolidIntegration {
   incompatible_modes,  ///< hex8 only: nine inner displacement modes remove shear locking
   full,                ///< the full strain energy of the shape functions
@@ -36,7 +36,7 @@ struct SolidForm {
   SolidKind kind = SolidKind::hex8;
   SolidIntegration integration = SolidIntegration::incompatible_modes;
 
-  /// The usual integration of a shape: incompatible modes for hex8, full for all others.
+  /// Default integration of a shape: incompatible modes for hex8, full for all others.
   static constexpr SolidForm usual(SolidKind kind) {
     return {kind, kind == SolidKind::hex8 ? SolidIntegration::incompatible_modes
                                           : SolidIntegration::full};

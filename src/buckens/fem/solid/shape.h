@@ -12,7 +12,7 @@
 
 namespace buckens::fem {
 
-/// Largest number of nodes of a solid element.
+/// Maximum number of nodes of a solid element.
 inline constexpr int kMostSolidNodes = 20;
 
 /// One number per node of a solid element.
@@ -35,7 +35,7 @@ struct SolidFace {
   std::vector<int> nodes() const;
 };
 
-/// What all elements of a kind have in common.
+/// Common to all elements of a kind.
 struct SolidTopology {
   int num_nodes = 0;
   int num_corners = 0;
@@ -51,8 +51,8 @@ struct SolidTopology {
   /// corner k. Wedges: lower, upper triangle, then the sides on edges 0, 1, 2. Pyramids: sides on
   /// base edges 0…3, then the base.
   std::vector<SolidFace> faces;
-  /// The faces in pieces of three (fourth −1) or four nodes for drawing; those of a face are
-  /// consecutive.
+  /// The faces divided into pieces of three (fourth −1) or four nodes for drawing; those of a face
+  /// are consecutive.
   std::vector<std::array<int, 4>> pieces;
 
   bool is_hexahedron() const { return num_corners == 8; }
@@ -62,7 +62,7 @@ struct SolidTopology {
 
 const SolidTopology& solid_topology(SolidKind kind);
 
-/// Shape functions and their slopes at natural coordinates.
+/// Shape functions and their derivatives at natural coordinates.
 SolidShape solid_shape(SolidKind kind, const Eigen::Vector3d& natural);
 
 }  // namespace buckens::fem

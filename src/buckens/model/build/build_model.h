@@ -13,7 +13,7 @@
 
 namespace buckens::model {
 
-/// Where a sensor looks.
+/// What a sensor observes.
 struct SensorPlace {
   std::vector<MarkerId> markers;  ///< in the order of the spec
   int body = kGround;             ///< of section forces and stresses, index into Model::bodies
@@ -23,7 +23,7 @@ struct SensorPlace {
   std::vector<int> solids;        ///< solid elements of that body at which stresses are averaged
 };
 
-/// A coordinate of a joint that starts with a value or a rate.
+/// A joint coordinate with an initial value or rate.
 struct StartCoordinate {
   int coordinate = 0;           ///< index into Model::coordinates
   std::optional<double> value;  ///< [rad] or [m]
@@ -31,7 +31,7 @@ struct StartCoordinate {
   SourceLocation where;
 };
 
-/// A built model with the non-mechanical contents of the description.
+/// A built model and the non-mechanical contents of the description.
 struct BuiltModel {
   Model model;
   ModelDescription description;
@@ -43,7 +43,7 @@ struct BuiltModel {
 /// Builds and checks the mechanism.
 /// @throws InputError or ModelError citing file:line:column, with names of bodies, joints and
 /// markers
-/// @param bases stores reduced bases between runs; null: nothing is stored
+/// @param bases stores reduced bases between runs; null: none are stored
 std::unique_ptr<BuiltModel> build_model(ModelDescription description,
                                         body::BasisStore* bases = nullptr);
 

@@ -11,7 +11,7 @@
 
 namespace buckens::model {
 
-/// Where fields of one body are recorded; numbers of the undivided mesh.
+/// Nodes and elements of a body whose fields are recorded, numbered as in the undivided mesh.
 struct FieldPlaces {
   int whole = 0;              ///< index into Model::wholes
   bool is_everywhere = true;  ///< all nodes, solid elements and interfaces; the lists are empty
@@ -20,17 +20,17 @@ struct FieldPlaces {
   std::vector<std::string> names;  ///< names in the model file, of loads at interfaces
 };
 
-/// What follows the body in "body/place"; empty if only a body is named.
+/// The part after the body in "body/place"; empty if only a body is named.
 std::string part_of_place(const std::string& text);
 
 /// Finds the places named in a model file, in the order of the bodies.
 ///
-/// An interface or set of nodes includes the solids that touch it, a set of faces their
-/// elements. For loads at interfaces, rigid bodies and markers of any body are places as
-/// well.
+/// An interface or node set includes the adjacent solids, a set of faces their elements.
+/// For fields of loads at interfaces, the names of rigid bodies and of markers of any body are
+/// also valid.
 /// @pre joints and loads are in the model
 /// @param meshes one per whole body, null if rigid
-/// @throws InputError with the nearest name if there is no such body or place, or if it is rigid
+/// @throws InputError with the closest name if there is no such body or place, or if it is rigid
 /// and its loads are not requested
 std::vector<FieldPlaces> find_field_places(
     const FieldOutputSpec& spec, const Model& model,

@@ -9,18 +9,18 @@
 
 namespace buckens::model {
 
-/// A function in code that gives the value of a signal, which a model file cannot express.
+/// A function in code that computes the value of a signal; a model file cannot express it.
 struct SignalFunction {
   std::string name;                 ///< of a signal with a `setting` or a formula (`value`)
   std::vector<std::string> inputs;  ///< signals whose values it takes
   FunctionSignal::Law law;
 };
 
-/// Lets functions give the values of signals, in place of their settings and formulas.
+/// Assigns functions to signals, in place of their settings and formulas.
 ///
-/// They are evaluated within the steps, with the motion of the last iterate: a controller that is
-/// written as a function has no delay. Theory: docs/theory/24-control.md §3.
-/// @throws InputError, ModelError naming signals that are not there or follow from the motion,
+/// Functions are evaluated within the steps, with the motion of the last iterate, so that a
+/// controller written as a function has no delay. Theory: docs/theory/24-control.md §3.
+/// @throws InputError, ModelError naming signals that do not exist or follow from the motion,
 ///         events that would set them, and signals of an algebraic loop
 void give_functions(const std::vector<SignalFunction>& functions, BuiltModel& built);
 

@@ -23,7 +23,7 @@ struct MeshPlace {
   double xi = 0;
 };
 
-/// The mesh of a flexible body with the places a model file can name.
+/// The mesh of a flexible body with the positions that a model file can name.
 struct NamedStructure {
   fem::Structure structure;
   std::vector<fem::BeamDivision> beams;  ///< one per beam of the file
@@ -36,17 +36,17 @@ struct NamedStructure {
   fem::RayleighFactors rayleigh;   ///< damping of such a body
   std::vector<std::string> notes;  ///< on what of a mesh file was taken otherwise than written
 
-  /// A named place; nodes of mesh files are `n` and the number.
+  /// A named position; nodes of mesh files are named `n` and their number.
   std::optional<MeshPlace> find(const std::string& name) const;
-  /// Null if there is none of this name.
+  /// Null if there is none with this name.
   const InterfaceRegion* find_interface(const std::string& name) const;
 };
 
-/// Makes nodes and elements from a `beam`, `structure`, `mesh` or `matrices` of the model file.
-/// @throws InputError or ModelError with the place in the file
+/// Creates nodes and elements from a `beam`, `structure`, `mesh` or `matrices` of the model file.
+/// @throws InputError or ModelError with the location in the file
 NamedStructure structure_from_spec(const body::BodySpec& spec);
 
-/// The constant matrices of a mesh, or those given instead of it.
+/// The constant matrices of a mesh, or those given in place of it.
 fem::FeModel assemble(const NamedStructure& mesh, std::optional<spatial::Plane> planar);
 
 }  // namespace buckens::model

@@ -12,7 +12,7 @@
 
 namespace buckens::model {
 
-/// Which way a signal goes through zero.
+/// Direction in which a signal crosses zero.
 enum class Crossing { rising, falling, both };
 
 constexpr std::array<const char*, 3> choice_names(Crossing) {
@@ -23,7 +23,7 @@ enum class EventAction { note, stop };
 
 constexpr std::array<const char*, 2> choice_names(EventAction) { return {"note", "stop"}; }
 
-/// The value that a signal with a `setting`, a parameter of a force law or gravity is given.
+/// New value of a signal with a `setting`, of a parameter of a force law, or of gravity.
 struct SettingChange {
   static constexpr bool kHasForeignName = true;  ///< "loads.damper.damping"
   std::string name;
@@ -46,7 +46,7 @@ struct SettingChange {
   }
 };
 
-/// Something that happens when a signal goes through zero.
+/// An action when a signal crosses zero.
 struct EventSpec {
   std::string name;
   SourceLocation where;
@@ -60,12 +60,12 @@ struct EventSpec {
   std::optional<double> tolerance;                 ///< of `attach` [m]
   bool records = false;
 
-  /// Whether the motion after it is another one.
+  /// Whether it changes the motion.
   bool changes_motion() const {
     return !changes.empty() || !switch_on.empty() || !switch_off.empty() || !lock.empty() ||
            !unlock.empty() || !release.empty() || !attach.empty();
   }
-  /// Whether its instant matters.
+  /// Whether its instant must be located.
   bool acts() const { return changes_motion() || records; }
 
   template <class Visitor>

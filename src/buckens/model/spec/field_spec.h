@@ -11,7 +11,7 @@
 
 namespace buckens::model {
 
-/// What can be recorded over a mesh, and of the loads on a body.
+/// Fields that can be recorded over a mesh, and loads on a body.
 enum class FieldQuantity {
   displacement,           ///< of the nodes from their undeformed positions, body axes
   velocity,               ///< of the nodes, world axes
@@ -42,7 +42,7 @@ constexpr std::array<const char*, 3> choice_names(ExtremeRate) {
   return {"off", "records", "steps"};
 }
 
-/// Fields over meshes: which, where and how often.
+/// Fields over meshes: which fields, where and how often.
 struct FieldOutputSpec {
   SourceLocation where;
   std::vector<FieldQuantity> record;

@@ -16,7 +16,7 @@
 
 namespace buckens::model {
 
-/// A number that varies over a body: a formula in x, y, z (model axes of the body, metres).
+/// A value that varies over a body: a formula in x, y, z (model axes of the body, metres).
 struct PositionLaw {
   base::Expression expression;
   double scale = 1;  ///< SI value of the formula's unit
@@ -101,7 +101,7 @@ struct InitialBodySpec {
   }
 };
 
-/// Values with which the coordinates of a joint start, in the order of base::kCoordinateNames.
+/// Initial values of the coordinates of a joint, in the order of base::kCoordinateNames.
 struct InitialJointSpec {
   std::string name;  ///< of the joint
   SourceLocation where;
@@ -111,7 +111,7 @@ struct InitialJointSpec {
   const std::optional<double>& value(base::CoordinateChoice which) const {
     return values[static_cast<std::size_t>(which)];
   }
-  /// The key that says something about a coordinate; null: none does.
+  /// The key that specifies a coordinate; null: none does.
   const char* key_of(const base::CoordinateName& own) const {
     const auto k = static_cast<std::size_t>(own.which);
     return values[k] ? own.key : rates[k] ? own.rate_key : nullptr;
@@ -146,7 +146,7 @@ enum class StartKind { as_given, static_equilibrium };
 
 constexpr std::array<const char*, 2> choice_names(StartKind) { return {"as-given", "static"}; }
 
-/// How the motion starts.
+/// Initial conditions of the motion.
 struct InitialSpec {
   SourceLocation where;
   std::vector<InitialBodySpec> bodies;

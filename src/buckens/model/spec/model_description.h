@@ -48,7 +48,7 @@ struct ParameterSpec {
   }
 };
 
-/// A force law between two markers written in code, which a model file cannot express.
+/// A force law between two markers in code; a model file cannot express it.
 struct OwnForce {
   std::string name;
   SourceLocation where;
@@ -56,7 +56,7 @@ struct OwnForce {
   std::shared_ptr<const loads::ForceElement> element;
 };
 
-/// What to do if joints are open with the bodies as placed.
+/// Handling of joints that are open with the bodies as placed.
 enum class AssemblyRule { adjust, strict };
 
 constexpr std::array<const char*, 2> choice_names(AssemblyRule) { return {"adjust", "strict"}; }
@@ -94,7 +94,7 @@ struct ModelDescription {
   OutputSpec output;
   SourceLocation where;   ///< the file
   std::string directory;  ///< relative file names start here
-  /// Text of a file with this model: the one that was read, with overrides applied.
+  /// Text of a model file for this model: the one that was read, with overrides applied.
   std::string source;
   std::vector<std::string> warnings;  ///< about implausible values; see plausibility.h
 

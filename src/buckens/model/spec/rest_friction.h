@@ -5,7 +5,7 @@
 
 namespace buckens::model {
 
-/// What friction does in an equilibrium.
+/// Friction in an equilibrium.
 enum class RestFriction {
   free,   ///< nothing: the equilibria are those without it
   frozen  ///< what rubs stays where it is, whatever force that takes

@@ -82,7 +82,7 @@ struct DeflectionSensor {
   DeflectionBase from;
   std::optional<std::array<base::MarkerRef, 2>> chord;  ///< in place of start and end
 
-  /// The ends of the chord: as given, or start and end of the body.
+  /// Ends of the chord: as given, or start and end of the body.
   std::array<base::MarkerRef, 2> chord_ends() const {
     if (chord) return *chord;
     std::array<base::MarkerRef, 2> ends = {of, of};
@@ -245,7 +245,7 @@ struct SpringTorqueSensor {
   }
 };
 
-/// Section of a beam: at a marker on the mesh, or at an end of a numbered element. Solid elements
+/// Section of a beam at a marker on the mesh, or at an end of a numbered element; or solid elements
 /// around a node, or a numbered one.
 struct SectionPlace {
   base::MarkerRef of;
@@ -431,7 +431,7 @@ struct SignalSensor {
   }
 };
 
-/// Something observed over time, one or more columns of sensors.csv.
+/// A quantity observed over time, as one or more columns of sensors.csv.
 struct SensorSpec {
   std::string name;
   SourceLocation where;
@@ -449,7 +449,7 @@ struct SensorSpec {
   }
 };
 
-/// What is recorded and how often.
+/// Recorded quantities and their interval.
 struct OutputSpec {
   SourceLocation where;
   std::optional<double> every;  ///< [s]; default: about 500 records over the duration

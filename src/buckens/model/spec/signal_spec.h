@@ -13,7 +13,7 @@
 
 namespace buckens::model {
 
-/// What a marker does along a direction of the world.
+/// Motion of a marker along a world direction.
 struct MarkerSignalSpec {
   SourceLocation where;
   base::MarkerRef of;
@@ -26,7 +26,7 @@ struct MarkerSignalSpec {
   }
 };
 
-/// What all blocks begin with.
+/// Common to all blocks.
 struct BlockInput {
   SourceLocation where;
   base::SignalLaw input;
@@ -156,7 +156,7 @@ struct PidSpec : BlockInput {
   }
 };
 
-/// Sampled and held.
+/// Sample and hold.
 struct SampleHoldSpec : BlockInput {
   double sample = 0;  ///< [s]
   template <class Visitor>
@@ -170,7 +170,7 @@ struct SampleHoldSpec : BlockInput {
   }
 };
 
-/// A function of its input by points.
+/// A function of the input, given by points.
 struct TableSignalSpec : BlockInput {
   std::vector<std::array<double, 2>> points;
   base::Interpolation interpolation = base::Interpolation::linear;
@@ -188,7 +188,7 @@ struct TableSignalSpec : BlockInput {
   }
 };
 
-/// Follows its input no faster than it may: T ẋ = u − x within limits of ẋ.
+/// Follows its input with limited rate: T ẋ = u − x within limits of ẋ.
 struct RateLimitSpec : BlockInput {
   double rising = 0, falling = 0;  ///< largest rates upwards and downwards, both > 0 [1/s]
   double time_constant = 1e-3;     ///< [s]
@@ -215,7 +215,7 @@ struct RateLimitSpec : BlockInput {
   }
 };
 
-/// On or off by the level of a signal, with hysteresis.
+/// On or off, depending on the level of a signal, with hysteresis.
 struct SwitchSpec : BlockInput {
   double on = 0;
   std::optional<double> off;
@@ -237,7 +237,7 @@ struct SwitchSpec : BlockInput {
   }
 };
 
-/// A number that stays until it is set: by an event, or from Python or C++ between steps.
+/// A number that is constant until an event, or Python or C++ code between steps, sets it.
 struct SettingSpec {
   double start = 0;
   template <class Visitor>
@@ -289,14 +289,14 @@ struct SensorSignalSpec {
 
 struct SignalSpec;
 
-/// What a signal reads of a joint, by whichever of its keys.
+/// The joint quantity that a signal reads.
 struct JointReading {
   const char* key;           ///< in the model file
   const std::string* joint;  ///< its name
   std::optional<base::CoordinateChoice> which;
   bool is_rate;
 };
-/// Those given, which is one at most.
+/// The given quantities, at most one.
 std::vector<JointReading> joint_readings(const SignalSpec& spec);
 
 /// A named number that varies with the motion: exactly one of the members is given.

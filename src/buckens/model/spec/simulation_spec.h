@@ -19,7 +19,7 @@ constexpr std::array<const char*, 4> choice_names(IntegrationMethod) {
 struct SimulationSpec {
   SourceLocation where;
   double duration = 0;  ///< [s]
-  /// [s]; adjusted once so that duration/step is an integer. With step control the longest step; 0
+  /// [s]; adjusted once so that duration/step is an integer. With step control the maximum step; 0
   /// or none: chosen by the program
   std::optional<double> step;
   IntegrationMethod method = IntegrationMethod::generalized_alpha;

@@ -15,7 +15,7 @@ enum class StaticMethod { arc_length, load };
 
 constexpr std::array<const char*, 2> choice_names(StaticMethod) { return {"arc-length", "load"}; }
 
-/// Where a static path ends before its last load factor.
+/// Criterion that ends a static path before its last load factor.
 struct StaticStopSpec {
   SourceLocation where;
   std::string sensor;
