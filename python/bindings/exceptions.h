@@ -3,7 +3,7 @@
 
 namespace buckens::python {
 
-/// Turns the library's exceptions into those of buckens.errors, with text and place unchanged.
+/// Converts the library's exceptions to those of buckens.errors, with text and location unchanged.
 void translate_exceptions();
 
 }  // namespace buckens::python

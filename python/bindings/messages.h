@@ -9,13 +9,13 @@
 
 namespace buckens::python {
 
-/// Messages of the library, kept until Python fetches them.
+/// Messages of the library, stored until Python fetches them.
 ///
-/// The library logs under a lock, from threads that may not hold Python's: handing a message over
-/// at once could make each wait for the other.
+/// The library logs under a lock, from threads that may not hold Python's lock: passing a message
+/// on at once could cause a deadlock.
 void collect_messages();
 
-/// What was said since the last call.
+/// Returns the messages since the last call.
 std::vector<std::pair<base::LogLevel, std::string>> take_messages();
 
 }  // namespace buckens::python

@@ -11,7 +11,7 @@
 
 namespace buckens::python {
 
-/// A model as read, and as built for the first simulation that needs it.
+/// A model as read; it is built for the first simulation that needs it.
 class ModelHandle {
  public:
   explicit ModelHandle(model::ModelDescription description);
@@ -20,8 +20,8 @@ class ModelHandle {
   static std::shared_ptr<ModelHandle> read(const std::string& path,
                                            const std::vector<std::string>& overrides);
   /// The same from a text.
-  /// @param name denotes the text in messages, and tables are looked up in its directory
-  /// @param is_generated nobody has seen the text: messages do not cite its lines
+  /// @param name of the text in messages; tables are searched for in its directory
+  /// @param is_generated the user has not seen the text, so that messages do not cite its lines
   static std::shared_ptr<ModelHandle> parse(const std::string& text, const std::string& name,
                                             const std::vector<std::string>& overrides,
                                             bool is_generated);
@@ -29,7 +29,7 @@ class ModelHandle {
   const model::ModelDescription& description() const { return description_; }
   /// @throws InputError, ModelError with the names of bodies, joints and markers
   std::shared_ptr<const model::BuiltModel> built() const;
-  /// The same with forces and signals written in code, which no other simulation gets.
+  /// The same with forces and signals in code, which other simulations do not get.
   std::shared_ptr<const model::BuiltModel> built_with(
       std::vector<model::OwnForce> forces, const std::vector<model::SignalFunction>& signals) const;
 

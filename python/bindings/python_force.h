@@ -12,7 +12,7 @@
 
 namespace buckens::python {
 
-/// A function of Python that gives the force on a marker.
+/// A Python function that computes the force on a marker.
 struct PythonForce {
   std::string name;    ///< of the load, in results and messages
   std::string marker;  ///< "rod/end"
@@ -22,7 +22,7 @@ struct PythonForce {
 };
 
 /// The force as the library evaluates it, from a thread without Python's lock.
-/// @param pending keeps what the function raises, see call_within_step()
+/// @param pending stores exceptions of the function, see call_within_step()
 /// @param origin of positions in the model, known once it is built
 model::OwnForce own_force(const PythonForce& force, std::shared_ptr<PendingException> pending,
                           std::shared_ptr<const Eigen::Vector3d> origin);

@@ -11,12 +11,12 @@
 
 namespace buckens::python {
 
-/// The exception of a Python function that was called within a step, until the step has ended and
-/// Python gets it back. Accessed with Python's lock held.
+/// The exception of a Python function called within a step, stored until the step has ended and
+/// Python receives it. Accessed with Python's lock held.
 struct PendingException {
   std::optional<pybind11::error_already_set> error;
 
-  /// Keeps the first one.
+  /// Stores the first exception.
   void keep(pybind11::error_already_set&& raised);
   /// Raises it, if there is one.
   void deliver();
@@ -31,9 +31,9 @@ struct SharedFunction {
   ~SharedFunction();
 };
 
-/// Calls a Python function from a thread without Python's lock. What it raises is kept, and becomes
-/// a NumericalError, which ends the step and leaves the state as it was.
-/// @param call with the lock held; may throw pybind11::type_error about what was returned
+/// Calls a Python function from a thread without Python's lock. Its exception is stored and causes
+/// a NumericalError, which ends the step and leaves the state unchanged.
+/// @param call with the lock held; may throw pybind11::type_error about the returned value
 /// @param what for the message: "the force on \"rod/end\""
 template <class Call>
 auto call_within_step(PendingException& pending, const std::string& what, Call&& call) {

@@ -11,7 +11,7 @@
 
 namespace buckens::python {
 
-/// A function of Python that gives the value of a signal.
+/// A Python function that computes the value of a signal.
 struct PythonSignal {
   std::string name;
   std::vector<std::string> inputs;  ///< signals whose values it takes
@@ -20,7 +20,7 @@ struct PythonSignal {
 };
 
 /// The signal as the library evaluates it, from a thread without Python's lock.
-/// @param pending keeps what the function raises, see call_within_step()
+/// @param pending stores exceptions of the function, see call_within_step()
 model::SignalFunction signal_function(const PythonSignal& signal,
                                       std::shared_ptr<PendingException> pending);
 

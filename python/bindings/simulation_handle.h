@@ -34,8 +34,8 @@ struct SimulationSettings {
   std::string start_from;    ///< file with a saved state; empty: the start of the model
 };
 
-/// A simulation as Python sees it: releases Python's lock while it computes, hands out arrays that
-/// follow it, and returns the exceptions of Python functions unchanged.
+/// A simulation for Python: releases Python's lock while it computes, returns arrays that follow
+/// the simulation, and passes on the exceptions of Python functions unchanged.
 ///
 /// All functions are called with Python's lock held.
 class SimulationHandle : public std::enable_shared_from_this<SimulationHandle> {
@@ -45,7 +45,7 @@ class SimulationHandle : public std::enable_shared_from_this<SimulationHandle> {
   // ---- advance
   /// @return false if the end was already reached
   bool step();
-  /// @return false if the end came first
+  /// @return false if the run ended first
   bool advance(double t);
   /// @param progress called with (time, end time, steps) at most ten times a second; may be None
   /// @return summary.json
@@ -65,13 +65,13 @@ class SimulationHandle : public std::enable_shared_from_this<SimulationHandle> {
   pybind11::array displacements(const std::string& body);
   pybind11::array velocities(const std::string& body);
   pybind11::array multipliers();
-  /// A copy of a quantity that is recorded, in its own shape.
+  /// A copy of a recorded quantity, in its original shape.
   pybind11::array value(const std::string& path) const;
   double signal(const std::string& name) const;
   std::vector<std::string> signals() const;
-  /// Path, unit, names of components of all that value() knows.
+  /// Path, unit and component names of all quantities that value() accepts.
   std::vector<std::tuple<std::string, std::string, std::vector<std::string>>> quantities() const;
-  /// Name, unit and values of the sensors at the instants of records; the instants come first.
+  /// Name, unit and recorded values of the sensors; the times of the records come first.
   pybind11::list curves() const;
 
   // ---- act

@@ -5,8 +5,8 @@
 
 namespace buckens::python {
 
-/// Tables of variants, their groups, and the runs of a worker: what buckens.sweep and buckens.study
-/// are made of.
+/// Tables of variants, their groups, and the runs of a worker, on which buckens.sweep and
+/// buckens.study are based.
 void define_studies(pybind11::module_& core);
 
 }  // namespace buckens::python
