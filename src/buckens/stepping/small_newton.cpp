@@ -480,6 +480,10 @@ void SmallNewton::iterate(std::vector<BodyStep>& bodies, double t, Vector& lambd
   leave_to_rows_in_use(lambda);
   if (!is_evaluated_) evaluate(bodies, t, lambda);
   record_residuals(residuals_, report);
+  if (decides_first_ && !cones_.empty() && decide_cones(t, report)) {
+    evaluate(bodies, t, lambda);
+    if (!regimes_hold(bodies, t, report)) evaluate(bodies, t, lambda);
+  }
   find_residuals(bodies);
   slopes_are_old_ = std::any_of(
       slopes_.begin(), slopes_.end(),

@@ -50,6 +50,10 @@ class SmallNewton {
   void accept_last_stands(bool accepts) { accepts_last_stands_ = accepts; }
   /// Whether it has done so in this step.
   bool has_accepted_stands() const { return has_accepted_stands_; }
+  /// Whether it is decided before the first iteration of a step how rigid contacts with friction
+  /// stand: iterations that begin with the stands of the step before may lead nowhere.
+  void decide_first(bool decides) { decides_first_ = decides; }
+  bool has_rough_contacts() const { return !cones_.empty(); }
   /// Condenses the joints at the predicted configuration held in `bodies`.
   /// @throws NumericalError naming joints if their equations have become dependent
   /// @param begins_here whether the iteration begins at that configuration, with λ as it is now
@@ -203,15 +207,16 @@ class SmallNewton {
   ContactCones cones_;
   HeldLaws held_;
   bool accepts_last_stands_ = false, has_accepted_stands_ = false;
+  bool decides_first_ = false;
   int num_selections_ = 0;
   std::unique_ptr<dynamics::MultiplierCondensation> condensation_;
+  /// Of corrections for which places slide; null: in this step none had to.
+  std::unique_ptr<dynamics::MultiplierCondensation> sliding_;
   std::vector<double> pivoted_;  // for a condensation not yet made, see visit_saved()
 
   IterationEnd ending_;
   dynamics::JointSet joints_;
-  std::vector<char> rates_only_;  // of each row of λ
-  /// Of corrections for which places slide; null: in this step none had to.
-  std::unique_ptr<dynamics::MultiplierCondensation> sliding_;
+  std::vector<char> rates_only_;   // of each row of λ
   std::vector<int> place_in_use_;  // of each row of λ among the rows in use, −1: not in use
   std::vector<dynamics::BodyMotion> end_, evaluation_, uncorrected_;
   dynamics::JointResiduals residuals_;        // at the end of the step

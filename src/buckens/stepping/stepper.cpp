@@ -121,6 +121,11 @@ void Stepper::accept_last_stands(bool accepts) {
   newton_->accept_last_stands(accepts);
 }
 
+void Stepper::decide_first(bool decides) {
+  follow_pairs();
+  newton_->decide_first(decides);
+}
+
 void Stepper::use_threads(int threads) {
   settings_.threads = threads;
   pool_ = threads > 1 ? std::make_unique<TaskPool>(threads) : nullptr;
@@ -329,6 +334,7 @@ void Stepper::take_impacts(StepReport& report) {
   report.impacts = impacts_->count();
   report.impact_loss = impacts_->loss();
   report.jammed_impacts = impacts_->jammed();
+  report.has_near_impulses = impacts_->are_near();
   report.impact_shares = impacts_->shares();
   report.impact_rest = impacts_->rest();
   report.must_settle = true;

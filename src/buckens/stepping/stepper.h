@@ -64,6 +64,10 @@ class Stepper {
 
   /// For the following steps, see SmallNewton::accept_last_stands().
   void accept_last_stands(bool accepts);
+  /// For the following steps, see SmallNewton::decide_first().
+  void decide_first(bool decides);
+  /// Whether there is anything to be decided so.
+  bool has_rough_contacts() const { return newton_->has_rough_contacts(); }
 
   /// Threads for the following steps, ≥ 1.
   void use_threads(int threads);

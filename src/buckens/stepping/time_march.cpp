@@ -55,11 +55,13 @@ StepReport TimeMarch::advance(const model::State& before, model::State& after,
   if (error_ && !has_begun_) error_->start(before);
   has_begun_ = true;
   first_failure_.clear();
-  bool accepts_last_stands = false;  // of rigid rows, where no shorter step helps
+  // Of rigid rows, where no shorter step helps.
+  bool accepts_last_stands = false, decides_first = false;
   rejected_ratio_ = 0;
   spread_ = std::max(next_step(), kFade * spread_);
   for (;;) {
     Stepper& stepper = ladder_.rung(k_);
+    stepper.decide_first(decides_first);
     stepper.accept_last_stands(accepts_last_stands);
     StepReport report;
     try {
@@ -70,8 +72,10 @@ StepReport TimeMarch::advance(const model::State& before, model::State& after,
         first_failure_ = failure.what();
         first_failed_ = k_;
       }
-      const bool may_accept = has_rigid_rows_ && !accepts_last_stands && k_ >= shortest();
-      if (may_accept) {
+      const bool may_decide = stepper.has_rough_contacts() && !decides_first;
+      const bool may_go_on = has_rigid_rows_ && (!accepts_last_stands || may_decide);
+      if (may_go_on && k_ >= shortest()) {
+        decides_first = accepts_last_stands;
         accepts_last_stands = true;
         k_ = first_failed_;
       } else {
