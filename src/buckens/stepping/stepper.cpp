@@ -351,7 +351,6 @@ void Stepper::keep_before_blows() {
   }
 }
 
-report.has_near_impulses = impacts_->are_near();
 void Stepper::add_jump(std::size_t b, const BodyJump& jump, dynamics::BodyMotion& motion) {
   model::BodyState& s = next_.bodies[b];
   // Since the impact it has turned with the velocity before it, in place of the one after it.
