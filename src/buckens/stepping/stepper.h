@@ -103,7 +103,7 @@ class Stepper {
   /// per mesh.
   void filter_algorithmic(model::State& state);
   /// Takes rates of meshes that strong damping turns round from step to step to their mean over the
-  /// last one, (I10); rows may be open by it. Two solves per damped mesh. @return whether there are
+  /// last one, (I11); rows may be open by it. Two solves per damped mesh. @return whether there are
   /// any
   bool take_mean_of_turning(const model::State& before, model::State& after);
   const Scheme& scheme() const { return scheme_; }
