@@ -323,7 +323,8 @@ TEST_F(AbaqusMalformed, ConstraintsThatCannotBe) {
   refuses(with_nodes("*EQUATION\n2\n1,7000,1.,2,1,-1.\n"), {"\"7000\" is not a degree"});
   refuses(with_nodes("*EQUATION\n2\n1,1,0.,2,1,-1.\n"), {"first coefficient is zero"});
   refuses(with_nodes("*MPC\nSLIDER, 1, 2, 3\n"), {"type \"SLIDER\" is not supported", "LINK"});
-  refuses(with_nodes("*NODE\n9,0,0,0\n*MPC\nLINK, 1, 9\n"), {"deck.inp:13:1", "at one place"});
+  refuses(with_nodes("*NODE\n9,0,0,0\n*MPC\nLINK, 1, 9\n"),
+          {"deck.inp:13:1", "joins coincident nodes"});
   refuses(with_nodes("*MPC\nBEAM, 1\n"), {"expected two nodes"});
   refuses(with_nodes("*MPC\nPIN, 1, 1\n"), {"joins a node to itself"});
   refuses(with_nodes("*RIGID BODY, REF NODE=1\n"), {"needs ELSET"});

@@ -173,7 +173,7 @@ TEST(NastranCards, a_system_along_the_normal_gives_isotropic_layers_no_direction
   EXPECT_FALSE(mesh.properties.at(1).axes.has_value());
   EXPECT_TRUE(has_note(mesh, "MCID along the normal"));
   test::expect_words(test::refusal(with("2")),
-                     {"deck.bdf:12:1", "CTRIA3 2", "MCID 7", "along its normal"});
+                     {"deck.bdf:12:1", "CTRIA3 2", "MCID 7", "parallel to its normal"});
 }
 
 TEST(NastranCards, nonstructural_mass_by_cards_of_its_own) {
