@@ -386,7 +386,7 @@ TEST(ModelFileErrors, LoadsInitialSimulationOutput) {
           {"simulation: {duration: 1 s, step: 1 ms, method: houbolt}",
            {"must be one of", "wilson"}},
           {"simulation: {duration: 1 s, step: 1 ms, method: wilson, theta: 1.3}",
-           {"simulation.theta", "at least 1.366", "not 1.3", "grow"}},
+           {"simulation.theta", "at least 1.366", "not 1.3", "amplifies"}},
           {"simulation: {duration: 1 s, step: 1 ms, theta: 1.4}",
            {"simulation.theta", "belongs to `method: wilson`", "generalized-alpha"}},
           {"simulation: {duration: 1 s, step: 1 ms, method: hht, alpha: -0.4}",
