@@ -234,7 +234,7 @@ def test_a_mesh_of_a_file_takes_an_integration(buckens, tmp_path, integration):
 
 
 def test_the_integration_of_a_generated_mesh_belongs_to_its_shape(refuse):
-    refuse("material: steel}}\njoints", "material: steel, integration: full}}\njoints", "bodies.bar.mesh.integration", "its shape")
+    refuse("material: steel}}\njoints", "material: steel, integration: full}}\njoints", "bodies.bar.mesh.integration", "belongs to the shape")
 
 
 # ---- rigid interfaces with frames

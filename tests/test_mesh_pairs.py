@@ -154,7 +154,7 @@ output: {{every: 20 ms, sensors: {{p: {{position: drum}}, v: {{velocity: drum}},
     (f"{BLOCK}], exponent: 1.5, stiffness: 1e6", ["a mesh and a mesh touch with an area", "remove `exponent`"]),
     ("{socket: 50 mm}]", ["a mesh and a socket cannot touch", "mesh–cylinder"]),
     ("{cylinder: {radius: 50 mm, length: 0.1}}], exponent: 1.5", ["without `stiffness` or `modulus` the contact is rigid"]),
-    ("{stl: {file: block.stl, unit: 1 m, spacing: 1 um}}], stiffness: 1e6", ["block.stl", "`spacing` of 1e-06 m over 0.24 m²", "greater"]),
+    ("{stl: {file: block.stl, unit: 1 m, spacing: 1 um}}], stiffness: 1e6", ["block.stl", "`spacing` of 1e-06 m over 0.24 m²", "give a larger spacing"]),
     ("{stl: {file: block.stl, unit: 1 m, spacing: -1 mm}}], stiffness: 1e6", ["spacing", "positive"]),
 ])
 def test_what_does_not_fit_is_refused(buckens, shapes, tmp_path, shapes_and_law, words):
