@@ -6,10 +6,8 @@
 
 #include "buckens/fem/element/block.h"
 #include "buckens/fem/solid/recovery.h"
-#include "buckens/model/state.h"
 #include "buckens/results/body_fields.h"
 #include "buckens/results/field_quantity_note.h"
-#include "buckens/results/model_geometry.h"
 
 namespace buckens::results {
 

@@ -2,16 +2,13 @@
 #include "buckens/stepping/impacts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "buckens/dynamics/mass_metric.h"
 #include "buckens/dynamics/model_scales.h"
-#include "buckens/spatial/rotation.h"
 #include "buckens/stepping/friction_impulses.h"
 #include "buckens/stepping/gap_of_step.h"
 #include "buckens/stepping/mesh_partners.h"
@@ -25,13 +22,9 @@ using linalg::Vector;
 
 namespace {
 
-// What comes with less than this share of the energy that it has at the end of the step does not
-// strike: it is pressed there from the beginning.
-constexpr double kPressed = 0.5;
 // A rate at the instant of the impact that differs from that at the end of the step by more than
 // this share is that of another place.
 constexpr double kSamePlace = 0.1;
-
 // Overlaps by this share of the size of positions, or [rad], are rounding.
 constexpr double kNoGap = 1e-14;
 
@@ -289,98 +282,6 @@ bool Impacts::look(std::size_t index, const dynamics::Circumstances& around,
   touch.sign = sign;
   touches_.push_back(std::move(touch));
   return strikes;
-}
-
-std::size_t Impacts::island_of(const Touch& touch) const {
-  const model::Load& load = model_.loads[laws_[touch.law].load];
-  return islands_.of(load.first.body, load.second.body);
-}
-
-void Impacts::find_islands() {
-  islands_.start();
-  for (const Touch& touch : touches_) {
-    const model::Load& load = model_.loads[laws_[touch.law].load];
-    islands_.unite(load.first.body, load.second.body);
-  }
-  std::vector<char> is_struck(jumps_.size(), 0);
-  for (const Touch& touch : touches_) {
-    if (touch.strikes) is_struck[island_of(touch)] = 1;
-  }
-  std::erase_if(touches_, [&](const Touch& touch) { return is_struck[island_of(touch)] == 0; });
-  strongest_.assign(jumps_.size(), touches_.size());
-  for (std::size_t k = 0; k < touches_.size(); ++k) {
-    std::size_t& strongest = strongest_[island_of(touches_[k])];
-    const bool is_first = strongest == touches_.size();
-    if (is_first || touches_[k].approach > touches_[strongest].approach) strongest = k;
-  }
-}
-
-double Impacts::since(const Touch& touch) {
-  const bool is_pressed = touch.stays && touch.lost_share < kPressed;
-  return is_pressed ? 0.0 : touch.is_of_step ? touch.since : touch.rest;
-}
-
-void Impacts::find_instants() {
-  const auto is_free = [&](int body) {
-    return body == model::kGround || is_free_[static_cast<std::size_t>(body)] != 0;
-  };
-  std::map<std::pair<int, int>, const Touch*> strongest;  // by the bodies
-  for (const Touch& touch : touches_) {
-    if (!touch.strikes) continue;
-    const model::Load& load = model_.loads[laws_[touch.law].load];
-    if (!is_free(load.first.body) || !is_free(load.second.body)) continue;
-    const Touch*& known = strongest[std::minmax(load.first.body, load.second.body)];
-    if (known == nullptr || touch.approach > known->approach) known = &touch;
-  }
-  for (Touch& touch : touches_) {
-    const model::Load& load = model_.loads[laws_[touch.law].load];
-    const auto own = strongest.find(std::minmax(load.first.body, load.second.body));
-    touch.from = since(own == strongest.end() ? strongest_near(touch) : *own->second);
-  }
-}
-
-namespace {
-
-/// A motion as it was some time before, with the velocities that it has.
-void go_back(double time, dynamics::BodyMotion& motion) {
-  spatial::Pose& X = motion.frame.X_WB;
-  X.p -= time * motion.frame.v;
-  X.q = (X.q * spatial::exp_rotation(-time * motion.frame.w)).normalized();
-  motion.y -= time * motion.y_dot;
-}
-
-}  // namespace
-
-template <class F>
-void Impacts::at_own_instant(const Touch& touch, const std::vector<dynamics::BodyMotion>& motions,
-                             std::vector<dynamics::BodyMotion>& then, F&& f) {
-  const model::Load& load = model_.loads[laws_[touch.law].load];
-  std::array<dynamics::BodyMotion, 2> kept;
-  const std::array<int, 2> bodies = {load.first.body, load.second.body};
-  for (std::size_t k = 0; k < 2; ++k) {
-    if (bodies[k] == model::kGround) continue;
-    const auto b = static_cast<std::size_t>(bodies[k]);
-    if (jumps_[b].since == touch.from) continue;
-    kept[k] = std::exchange(then[b], motions[b]);
-    go_back(touch.from, then[b]);
-  }
-  f(then);
-  for (std::size_t k = 0; k < 2; ++k) {
-    if (bodies[k] == model::kGround) continue;
-    const auto b = static_cast<std::size_t>(bodies[k]);
-    if (jumps_[b].since != touch.from) then[b] = std::move(kept[k]);
-  }
-}
-
-std::vector<dynamics::BodyMotion> Impacts::at_impact(std::vector<dynamics::BodyMotion> motions) {
-  for (std::size_t b = 0; b < motions.size(); ++b) {
-    jumps_[b].since = 0.0;
-    const std::size_t k = strongest_[islands_.of(b)];
-    if (k == touches_.size()) continue;
-    jumps_[b].since = since(touches_[k]);
-    go_back(jumps_[b].since, motions[b]);
-  }
-  return motions;
 }
 
 void Impacts::set_row(std::size_t index, double sign,

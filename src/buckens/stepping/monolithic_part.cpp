@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "buckens/body/rigid_modes.h"
+#include "buckens/dynamics/coupling_terms.h"
 #include "buckens/dynamics/frame_equation.h"
 #include "buckens/linalg/pivoted_qr.h"
 #include "buckens/spatial/rotation.h"

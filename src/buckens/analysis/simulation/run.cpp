@@ -10,8 +10,6 @@
 #include "buckens/analysis/initial/after_impact.h"
 #include "buckens/analysis/initial/position_assembly.h"
 #include "buckens/analysis/simulation/seconds_since.h"
-#include "buckens/analysis/simulation/settings.h"
-#include "buckens/analysis/simulation/step_advice.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/free_memory.h"
 #include "buckens/base/log.h"
@@ -19,8 +17,6 @@
 #include "buckens/dynamics/contact_groups.h"
 #include "buckens/dynamics/pair_memory.h"
 #include "buckens/linalg/factor_threads.h"
-#include "buckens/model/contact_group.h"
-#include "buckens/results/state_interpolation.h"
 
 namespace buckens::analysis {
 

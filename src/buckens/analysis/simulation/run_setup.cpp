@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "buckens/analysis/initial/after_impact.h"
-#include "buckens/analysis/initial/position_assembly.h"
 #include "buckens/analysis/simulation/run.h"
 #include "buckens/analysis/simulation/seconds_since.h"
 #include "buckens/analysis/simulation/settings.h"
@@ -15,11 +13,8 @@
 #include "buckens/base/free_memory.h"
 #include "buckens/base/log.h"
 #include "buckens/base/version.h"
-#include "buckens/dynamics/contact_groups.h"
-#include "buckens/dynamics/pair_memory.h"
 #include "buckens/linalg/factor_threads.h"
 #include "buckens/model/contact_group.h"
-#include "buckens/results/state_interpolation.h"
 
 namespace buckens::analysis {
 

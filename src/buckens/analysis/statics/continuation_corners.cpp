@@ -6,7 +6,6 @@
 #include "buckens/analysis/statics/continuation.h"
 #include "buckens/analysis/statics/rest_pivots.h"
 #include "buckens/analysis/statics/state.h"
-#include "buckens/analysis/statics/tolerances.h"
 
 namespace buckens::analysis {
 

@@ -12,7 +12,6 @@
 #include "buckens/analysis/statics/tolerances.h"
 #include "buckens/base/errors.h"
 #include "buckens/body/body_lengths.h"
-#include "buckens/spatial/rotation.h"
 
 namespace buckens::analysis {
 

@@ -6,11 +6,8 @@
 
 #include "buckens/analysis/statics/descent.h"
 #include "buckens/analysis/statics/rest_pivots.h"
-#include "buckens/analysis/statics/state.h"
 #include "buckens/analysis/statics/tolerances.h"
 #include "buckens/base/errors.h"
-#include "buckens/body/body_lengths.h"
-#include "buckens/spatial/rotation.h"
 
 namespace buckens::analysis {
 

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "buckens/analysis/statics/rest_stop.h"
-#include "buckens/dynamics/contact_groups.h"
 #include "buckens/dynamics/travel.h"
 #include "buckens/loads/ball_friction.h"
 #include "buckens/loads/contact.h"

@@ -7,13 +7,11 @@
 #include <fmt/format.h>
 
 #include "buckens/analysis/statics/rest_rows.h"
-#include "buckens/dynamics/contact_groups.h"
 #include "buckens/dynamics/travel.h"
 #include "buckens/loads/ball_friction.h"
 #include "buckens/loads/contact.h"
 #include "buckens/loads/contact_friction.h"
 #include "buckens/loads/coordinate_motor.h"
-#include "buckens/model/contact_group.h"
 
 namespace buckens::analysis {
 

@@ -6,11 +6,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "buckens/files/deck_number.h"
 #include "buckens/mesh_io/abaqus/cards.h"
-#include "buckens/mesh_io/abaqus/full_section.h"
-#include "buckens/mesh_io/box_section.h"
-#include "buckens/mesh_io/nastran/section_shapes.h"
 
 namespace buckens::mesh_io {
 
