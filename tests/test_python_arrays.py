@@ -188,7 +188,7 @@ TETRA = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])
     (([["a", "b", "c"]], {"tetra": [[0, 1, 2, 3]]}), "nodes: expected an array of numbers"),
     ((TETRA * np.array([[1], [1], [np.nan], [1]]), {"tetra": [[0, 1, 2, 3]]}), r"nodes\[2\].*finite"),
     ((TETRA, [[0, 1, 2, 3]]), "node numbers by kind, such as {'tetra'"),
-    ((TETRA, {"tet4": [[0, 1, 2, 3]]}), "no kind 'tet4'; there are tetra, tetra10"),
+    ((TETRA, {"tet4": [[0, 1, 2, 3]]}), "unknown kind 'tet4'; known kinds are tetra, tetra10"),
     ((TETRA, {"tetra": [[0, 1, 2]]}), r"rows of 4 nodes, found an array of shape \(1, 3\)"),
     ((TETRA, {"tetra": [[0.0, 1, 2, 3]]}), "whole numbers, found dtype float64"),
     ((TETRA, {"tetra": [[1, 2, 3, 4]]}), "found 4; the 4 nodes have the numbers 0 to 3"),

@@ -70,7 +70,7 @@ def test_arguments_of_simulations(sim):
      ["bodies.cart.rigid.inertia", "array of numbers", "dtype <U1"]),
     ("bodies.cart.rigid.mass", 1 + 2j, ["bodies.cart.rigid.mass", "(1+2j)", "complex"]),
     ("bodies.cart.rigid.mass", float("nan"), ["bodies.cart.rigid.mass", "nan"]),
-    ("bodies.cart.markers", {3: {"position": [0, 0, 0]}}, ["bodies.cart.markers.3", "text as key"]),
+    ("bodies.cart.markers", {3: {"position": [0, 0, 0]}}, ["bodies.cart.markers.3", "a string as key"]),
     ("bodies.cart.rigid", lambda: 3, ["bodies.cart.rigid", "function"]),
 ])
 def test_models(path, value, words):

@@ -51,6 +51,6 @@ def test_a_negative_pivot_is_an_error(negative):
 def test_matrices_and_pairs_of_the_others(count):
     """All numbers are whole and small, so that every order of sums gives the same."""
     found = call("shared_rows.py", count)
-    assert found == {"rows": "0.0", "symmetric": "0.0", "gathered": "True",
+    assert found == {"rows": "0.0", "symmetric": "0.0", "facts": "True", "gathered": "True",
                      "lopsided": "-1 it has entries on one side of the diagonal that are not on the other",
                      "along": "0.0", "left": "0.0 0.0", "combined": "0.0", "taken": "0.0 0.0"}

@@ -14,7 +14,7 @@ INT, DOUBLE, FLOAT = (ctypes.POINTER(kind) for kind in (ctypes.c_int, ctypes.c_d
 
 
 # Of src/buckens/linalg/grid_plugin.h, whose structures stand below.
-VERSION = 6
+VERSION = 7
 
 
 class Columns(ctypes.Structure):
@@ -28,6 +28,18 @@ class Matrix(ctypes.Structure):
     _fields_ = [("size", ctypes.c_int), ("all", Columns), ("give", GIVE), ("source", ctypes.c_void_p), ("block", ctypes.c_int),
                 ("num_motions", ctypes.c_int), ("motions", DOUBLE), ("options", ctypes.c_char_p), ("order", INT),
                 ("terms", INT), ("weights", DOUBLE), ("num_terms", ctypes.c_int)]
+
+
+class Facts(ctypes.Structure):
+    _fields_ = [("entries", ctypes.c_long), ("square_norm", ctypes.c_double), ("content", ctypes.c_ulonglong * 2)]
+
+
+ADD_CONTENT = ctypes.CFUNCTYPE(None, ctypes.c_int, ctypes.c_int, ctypes.POINTER(Columns), ctypes.POINTER(ctypes.c_ulonglong))
+
+
+class Maker(ctypes.Structure):
+    """Nobody asks for columns here."""
+    _fields_ = [("make", ctypes.c_void_p), ("add_content", ADD_CONTENT)]
 
 
 class Limits(ctypes.Structure):
@@ -46,12 +58,15 @@ SOLVE = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, DOUBLE, DOUBLE, ctypes.P
 class Plugin(ctypes.Structure):
     _fields_ = [("version", ctypes.c_int), ("name", ctypes.c_void_p), ("make", MAKE), ("solve", SOLVE),
                 ("bytes", ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_void_p)), ("release", ctypes.CFUNCTYPE(None, ctypes.c_void_p)),
-                ("join", ctypes.CFUNCTYPE(None, INT, INT)), ("serve", ctypes.CFUNCTYPE(None)), ("leave", ctypes.CFUNCTYPE(None)),
+                ("join", ctypes.CFUNCTYPE(None, INT, INT)), ("serve", ctypes.CFUNCTYPE(None, ctypes.POINTER(Maker))), ("leave", ctypes.CFUNCTYPE(None)),
                 ("traffic", ctypes.c_void_p),
-                ("divide", ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_int, ctypes.POINTER(Columns), ctypes.c_char_p, ctypes.c_int)),
+                ("divide", ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_int, ctypes.POINTER(Columns), ctypes.POINTER(Facts), ctypes.c_char_p,
+                                            ctypes.c_int)),
                 ("divide_rows", ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_int, ctypes.c_int, ctypes.POINTER(Columns), ctypes.c_char_p,
                                                  ctypes.c_int)),
+                ("make_columns", ctypes.c_void_p), ("add_up", ctypes.c_void_p),
                 ("multiply", ctypes.CFUNCTYPE(None, ctypes.c_int, INT, ctypes.POINTER(DOUBLE), ctypes.POINTER(DOUBLE))),
+                ("inner_product", ctypes.c_void_p), ("diagonal", ctypes.c_void_p), ("marks", ctypes.c_void_p), ("edges", ctypes.c_void_p),
                 ("gather", ctypes.CFUNCTYPE(None, ctypes.c_int, INT, INT, DOUBLE)),
                 ("forget", ctypes.CFUNCTYPE(None, ctypes.c_int)),
                 ("make_pairs", ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_int, ctypes.c_int, ctypes.c_char_p, ctypes.c_int)),
@@ -115,7 +130,8 @@ def run(plugin_file, work):
     rank, count = ctypes.c_int(), ctypes.c_int()
     plugin.join(ctypes.byref(rank), ctypes.byref(count))
     if rank.value > 0:
-        plugin.serve()
+        maker = Maker(add_content=ADD_CONTENT(lambda first, end, columns, content: None))
+        plugin.serve(ctypes.byref(maker))
         return
     work(plugin)
     plugin.leave()

@@ -8,7 +8,7 @@ import ctypes
 import random
 import sys
 
-from shared_factor import DOUBLE, INT, Columns, run
+from shared_factor import DOUBLE, INT, Columns, Facts, run
 
 ROWS, COLUMNS, PAIRS = 37, 23, 3
 
@@ -52,7 +52,10 @@ def multiply(plugin, chance, error):
     of_rows, _, kept_rows = sparse(rows)
     of_columns, lists, kept_columns = sparse(symmetric)
     A = plugin.divide_rows(ROWS, COLUMNS, ctypes.byref(of_rows), error, 400)
-    B = plugin.divide(COLUMNS, ctypes.byref(of_columns), error, 400)
+    facts = Facts()
+    B = plugin.divide(COLUMNS, ctypes.byref(of_columns), ctypes.byref(facts), error, 400)
+    values = [value for column in symmetric for value in column.values()]
+    print("facts:", facts.entries == len(values) and facts.square_norm == sum(value * value for value in values))
     x, z = ([float(chance.randint(-99, 99)) for _ in range(COLUMNS)] for _ in range(2))
     y, w = product(plugin, [A, B], [x, z], [ROWS, COLUMNS])
     print("rows:", difference(y, [sum(value * x[c] for c, value in row.items()) for row in rows]))
@@ -62,7 +65,7 @@ def multiply(plugin, chance, error):
     print("gathered:", all(list(found) == values for found, values in zip(back, lists, strict=True)))
     del symmetric[0][next(r for r in symmetric[0] if r > 0)]
     lopsided, _, kept_lopsided = sparse(symmetric)
-    print("lopsided:", plugin.divide(COLUMNS, ctypes.byref(lopsided), error, 400), error.value.decode())
+    print("lopsided:", plugin.divide(COLUMNS, ctypes.byref(lopsided), ctypes.byref(facts), error, 400), error.value.decode())
     plugin.forget(A)
     plugin.forget(B)
     del kept_rows, kept_columns, kept_lopsided

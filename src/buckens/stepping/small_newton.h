@@ -245,7 +245,7 @@ class SmallNewton {
 
   std::vector<BodyIteration> shares_;                          // per body
   std::vector<dynamics::BodyResponse> correction_, response_;  // row forces on them
-  linalg::Vector E_, X_, corrected_;
+  linalg::Vector E_, open_, X_, corrected_;
   double motion_ = 0;              // of the step, at the last iteration [m]
   std::size_t restless_body_ = 0;  // whose frame moved most in the last iteration
 };

@@ -64,14 +64,14 @@ bool SmallNewton::correct_by_sliding(const std::vector<BodyStep>& bodies, double
   for (std::size_t k = 0; k < soft_.rows.size() && !is_there; ++k) is_there = sticks(k);
   if (!is_there) return false;
   if (!sliding_) {
-    const Vector open = E_;
+    open_ = E_;
     condensation_->solve_in_place(E_);
     condensation_->gather(E_, correction_);
     const double size = size_of_correction(bodies);
-    if (size * size <= kOpensItself * model_.length * open.cwiseAbs().maxCoeff()) return true;
+    if (size * size <= kOpensItself * model_.length * open_.cwiseAbs().maxCoeff()) return true;
     const std::vector<dynamics::BodyResponse> sticking = correction_;
     sliding_ = condense_without_sticking(t);
-    Vector slid = open;
+    Vector slid = open_;
     if (sliding_) {
       sliding_->solve_in_place(slid);
       sliding_->gather(slid, correction_);

@@ -121,7 +121,7 @@ TEST(ErrorEstimate, PartsAddUpAndTheLargestIsNamed) {
   EXPECT_DOUBLE_EQ(x.curve.at, 10.0);
   const auto reasons = doubts(statement);
   ASSERT_EQ(reasons.size(), 1U);
-  EXPECT_NE(reasons[0].find("from frames"), std::string::npos);
+  EXPECT_NE(reasons[0].find("due to frames"), std::string::npos);
 }
 
 TEST(ErrorEstimate, FactorsAreThoseOfRoache) {
