@@ -348,58 +348,53 @@ def virtual_memory(process):
     return next(1024 * int(line.split()[1]) for line in lines if line.startswith("VmSize"))
 
 
+ONE_HEAP = {**ENVIRONMENT, "MALLOC_ARENA_MAX": "1"}  # others reserve more than they use
+
+
+def memory_of_the_second(place, model, duration):
+    """Virtual memory of the second of two processes once they step [bytes]."""
+    runs = subprocess.Popen([MPIRUN, "-n", "2", PROGRAM, "run", model, "-o", "enough", "-q", "--set", f"simulation.duration={duration}"],
+                            cwd=place, env=ONE_HEAP, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        deadline = time.monotonic() + 240
+        csv = place / "enough" / "sensors.csv"
+        while not csv.exists() or len(csv.read_text().splitlines()) < 3:
+            assert time.monotonic() < deadline and runs.poll() is None
+            time.sleep(0.1)
+        return virtual_memory(started(runs, 1))
+    finally:
+        runs.terminate()
+        runs.wait(timeout=60)
+
+
+def told_with_little_memory(place, most):
+    """What the cube's run says whose second process may have so much memory [bytes]: one line."""
+    limited = f"[ $OMPI_COMM_WORLD_RANK = 0 ] || ulimit -v {most // 1024}; exec \"$@\""
+    command = [MPIRUN, "-n", "2", "sh", "-c", limited, "sh", PROGRAM, "run", "cube.yaml", "-o", "out"]
+    result = subprocess.run(command, cwd=place, capture_output=True, text=True, timeout=240, check=False, env=ONE_HEAP,
+                            stdin=subprocess.DEVNULL)
+    assert result.returncode != 0
+    told = [line for line in result.stderr.splitlines() if line.startswith("buckens: error")]
+    assert len(told) == 1 and "too little memory" in told[0], result.stderr
+    return told[0]
+
+
 @several
 def test_too_little_memory_for_a_part_of_the_factor(tmp_path):
     """On one process only: the first one tells it once, and all end."""
     (tmp_path / "cube.yaml").write_text(CUBE)
-    one_heap = {**ENVIRONMENT, "MALLOC_ARENA_MAX": "1"}  # others reserve more than they use
-    runs = subprocess.Popen([MPIRUN, "-n", "2", PROGRAM, "run", "cube.yaml", "-o", "enough", "-q", "--set", "simulation.duration=3 s"],
-                            cwd=tmp_path, env=one_heap, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    try:
-        deadline = time.monotonic() + 240
-        csv = tmp_path / "enough" / "sensors.csv"
-        while not csv.exists() or len(csv.read_text().splitlines()) < 3:
-            assert time.monotonic() < deadline and runs.poll() is None
-            time.sleep(0.1)
-        needed = virtual_memory(started(runs, 1))
-    finally:
-        runs.terminate()
-        runs.wait(timeout=60)
+    needed = memory_of_the_second(tmp_path, "cube.yaml", "3 ms")
     # Its part of the factor and of the fronts takes 80 MB of that, and is what it needs last.
-    limited = f"[ $OMPI_COMM_WORLD_RANK = 0 ] || ulimit -v {(needed - 30_000_000) // 1024}; exec \"$@\""
-    command = [MPIRUN, "-n", "2", "sh", "-c", limited, "sh", PROGRAM, "run", "cube.yaml", "-o", "out"]
-    result = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=240, check=False, env=one_heap,
-                            stdin=subprocess.DEVNULL)
-    assert result.returncode != 0
-    told = [line for line in result.stderr.splitlines() if line.startswith("buckens: error")]
-    assert len(told) == 1 and "too little memory" in told[0] and "equations on 2 processes" in told[0], result.stderr
+    assert "equations on 2 processes" in told_with_little_memory(tmp_path, needed - 30_000_000)
 
 
 @several
 def test_too_little_memory_for_making_columns(tmp_path):
     """Processes other than the first assemble M and K of solids, so one of them lacks memory before there is a factor."""
     (tmp_path / "cube.yaml").write_text(CUBE)
-    one_heap = {**ENVIRONMENT, "MALLOC_ARENA_MAX": "1"}
-    idle = subprocess.Popen([MPIRUN, "-n", "2", PROGRAM, "run", BLOCKS, "-o", "idle", "-q", "--set", "simulation.duration=30 s"], cwd=tmp_path,
-                            env=one_heap, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    try:
-        deadline = time.monotonic() + 120
-        csv = tmp_path / "idle" / "sensors.csv"
-        while not csv.exists() or len(csv.read_text().splitlines()) < 3:
-            assert time.monotonic() < deadline and idle.poll() is None
-            time.sleep(0.1)
-        needed = virtual_memory(started(idle, 1))
-    finally:
-        idle.terminate()
-        idle.wait(timeout=60)
+    idle = memory_of_the_second(tmp_path, BLOCKS, "30 s")
     # K of both triangles takes 20 MB, and what elements add to it as much again.
-    limited = f"[ $OMPI_COMM_WORLD_RANK = 0 ] || ulimit -v {(needed + 16_000_000) // 1024}; exec \"$@\""
-    command = [MPIRUN, "-n", "2", "sh", "-c", limited, "sh", PROGRAM, "run", "cube.yaml", "-o", "out"]
-    result = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=240, check=False, env=one_heap,
-                            stdin=subprocess.DEVNULL)
-    assert result.returncode != 0
-    told = [line for line in result.stderr.splitlines() if line.startswith("buckens: error")]
-    assert len(told) == 1 and "equations on 2 processes could not be made" in told[0] and "too little memory" in told[0], result.stderr
+    assert "equations on 2 processes could not be made" in told_with_little_memory(tmp_path, idle + 16_000_000)
 
 
 def test_one_process_counts_nothing(buckens, tmp_path):

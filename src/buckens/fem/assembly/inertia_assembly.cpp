@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/fem/assembly/inertia_assembly.h"
 
-#include <algorithm>
-#include <numeric>
 #include <optional>
 
 #include "buckens/fem/assembly/element_pieces.h"
 #include "buckens/fem/assembly/stiffness_assembly.h"
+#include "buckens/linalg/counted_entries.h"
 
 namespace buckens::fem {
 
@@ -48,8 +47,6 @@ AssembledInertia assemble_inertia(const std::vector<std::shared_ptr<const Elemen
 }
 
 SparseMatrix mass_of_nodes(const NodalMass& nodal, int n) {
-  SparseMatrix out(n, n);
-  int* starts = out.outerIndexPtr();
   const auto visit = [&nodal](auto&& entry) {
     for (int to = 0; to < nodal.Ms.outerSize(); ++to) {
       for (std::size_t a = 0; a < 3; ++a) {
@@ -62,17 +59,8 @@ SparseMatrix mass_of_nodes(const NodalMass& nodal, int n) {
       }
     }
   };
-  std::fill_n(starts, n + 1, 0);
-  visit([starts](int, int column, double) { ++starts[column + 1]; });
-  std::partial_sum(starts, starts + n + 1, starts);
-  out.resizeNonZeros(starts[n]);
   // Variables ascend with nodes, and so do columns and rows here.
-  int place = 0;
-  visit([&](int row, int, double value) {
-    out.innerIndexPtr()[place] = row;
-    out.valuePtr()[place++] = value;
-  });
-  return out;
+  return linalg::from_counted_entries(n, n, visit);
 }
 
 }  // namespace buckens::fem

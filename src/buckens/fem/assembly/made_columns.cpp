@@ -5,12 +5,12 @@
 #include <cstring>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <type_traits>
 #include <utility>
 
 #include "buckens/fem/assembly/inertia_assembly.h"
 #include "buckens/fem/assembly/stiffness_assembly.h"
+#include "buckens/linalg/counted_entries.h"
 #include "buckens/linalg/divided_matrix.h"
 
 namespace buckens::fem {
@@ -198,8 +198,6 @@ linalg::SymmetricMatrix matrix_made_elsewhere(MeshMatrix which, const SolidBlock
 SparseMatrix made_columns(std::span<const std::byte> description, int first, int end) {
   const PartOfMesh part = part_from(description);
   const SparseMatrix A = matrix_of(part);
-  SparseMatrix out(part.size, end - first);
-  int* starts = out.outerIndexPtr();
   const auto visit = [&](auto&& entry) {
     for (int k = 0; k < A.outerSize(); ++k) {
       const int column = part.variables[static_cast<std::size_t>(k)];
@@ -210,16 +208,7 @@ SparseMatrix made_columns(std::span<const std::byte> description, int first, int
       }
     }
   };
-  std::fill_n(starts, end - first + 1, 0);
-  visit([starts](int, int column, double) { ++starts[column + 1]; });
-  std::partial_sum(starts, starts + (end - first) + 1, starts);
-  out.resizeNonZeros(starts[end - first]);
-  int place = 0;
-  visit([&](int row, int, double value) {
-    out.innerIndexPtr()[place] = row;
-    out.valuePtr()[place++] = value;
-  });
-  return out;
+  return linalg::from_counted_entries(part.size, end - first, visit);
 }
 
 }  // namespace buckens::fem
