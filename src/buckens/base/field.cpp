@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/base/field.h"
 
+#include <mutex>
+#include <set>
+#include <utility>
+
 namespace buckens::base {
 
 Field&& Field::in(Dimension dimension) && {
@@ -35,36 +39,31 @@ Field&& Field::on_off() && {
   note.is_switch = true;
   return std::move(*this);
 }
-Field&& Field::like(std::string example) && {
-  note.example = std::move(example);
-  return std::move(*this);
-}
 Field&& Field::like(const char* example) && {
   note.example = example;
-  return std::move(*this);
-}
-Field&& Field::otherwise(std::string standard) && {
-  note.standard = std::move(standard);
   return std::move(*this);
 }
 Field&& Field::otherwise(const char* standard) && {
   note.standard = standard;
   return std::move(*this);
 }
-Field&& Field::or_word(std::string word) && {
-  note.word = std::move(word);
+Field&& Field::or_word(const char* word) && {
+  note.word = word;
   return std::move(*this);
 }
 
-Field field_of(Member member, const char* name, const char* doc) {
-  return field_of(member, std::string(name), std::string(doc));
+const char* lasting_text(const std::string& text) {
+  static std::mutex guard;
+  static std::set<std::string> kept;
+  const std::lock_guard lock(guard);
+  return kept.insert(text).first->c_str();
 }
 
-Field field_of(Member member, std::string name, std::string doc) {
+Field field_of(Member member, const char* name, const char* doc) {
   Field out;
   out.member = member;
-  out.note.name = std::move(name);
-  out.note.doc = std::move(doc);
+  out.note.name = name;
+  out.note.doc = doc;
   return out;
 }
 

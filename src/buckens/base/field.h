@@ -2,7 +2,7 @@
 #pragma once
 
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "buckens/base/dimension.h"
@@ -13,19 +13,21 @@ namespace buckens::base {
 /// Numbers that a field accepts.
 enum class Range { any, positive, non_negative, fraction /* 0 … 1 */, poisson /* −1 … ½ */ };
 
-/// Properties of a field besides its member.
+/// Properties of a field besides its member. The texts outlive the program's work: they are
+/// literals or lasting_text.
 struct FieldNote {
-  std::string name;  ///< key in the model file; empty: the value replaces the struct
-  std::string doc;   ///< one sentence
+  std::string_view name;  ///< key in the model file; empty: the value replaces the struct
+  std::string_view doc;   ///< one sentence
   Dimension dimension;
   Range range = Range::any;
   bool is_required = false;
   bool is_shorthand = false;   ///< a struct given as a single value sets this field
   bool is_switch = false;      ///< a boolean written on | off
   bool any_dimension = false;  ///< any unit is accepted
-  std::string example;         ///< YAML, for messages and the reference page
-  std::string standard;  ///< what happens if left out, where the member's default says too little
-  std::string word;      ///< accepted instead of the number, which is then 0
+  std::string_view example;    ///< YAML, for messages and the reference page
+  std::string_view
+      standard;           ///< what happens if left out, where the member's default says too little
+  std::string_view word;  ///< accepted instead of the number, which is then 0
 };
 
 /// One line of a field list: a key of the model file, the member it fills, and the rules.
@@ -45,21 +47,16 @@ struct Field {
   Field&& shorthand() &&;
   Field&& of_any_dimension() &&;
   Field&& on_off() &&;
-  Field&& like(std::string example) &&;
   Field&& like(const char* example) &&;
-  Field&& otherwise(std::string standard) &&;
   Field&& otherwise(const char* standard) &&;
-  Field&& or_word(std::string word) &&;
+  Field&& or_word(const char* word) &&;
 };
 
-// Texts are copied out of line: lists of fields do it a thousand times.
-Field field_of(Member member, const char* name, const char* doc);
-Field field_of(Member member, std::string name, std::string doc);
+/// The text, kept until the program ends. For texts that are put together from a few parts, not for
+/// any that come from files.
+const char* lasting_text(const std::string& text);
 
-template <class T>
-Field field(std::string name, T& member, std::string doc) {
-  return field_of(member_of(member), std::move(name), std::move(doc));
-}
+Field field_of(Member member, const char* name, const char* doc);
 
 template <class T>
 Field field(const char* name, T& member, const char* doc) {
@@ -69,8 +66,8 @@ Field field(const char* name, T& member, const char* doc) {
 /// The value replaces the struct: the alternatives of a variant become keys next to the other
 /// fields (exactly one of them); any other member is the whole content of the struct.
 template <class T>
-Field inlined(T& member, std::string doc) {
-  return field_of(member_of(member), "", std::move(doc));
+Field inlined(T& member, const char* doc) {
+  return field_of(member_of(member), "", doc);
 }
 
 /// A value given either by the name of an entry elsewhere or in place.

@@ -34,7 +34,8 @@ struct Member {
 
 /// Key and description of one alternative of a variant.
 struct AlternativeNote {
-  std::string key, doc;
+  const char* key = "";
+  const char* doc = "";
   const MemberType* type = nullptr;
 };
 

@@ -93,13 +93,13 @@ struct LongShape {
   std::optional<Eigen::Vector3d> axis;
 
   template <class Visitor>
-  void long_fields(Visitor& visit, std::string doc_of_length) {
+  void long_fields(Visitor& visit, const char* doc_of_length) {
     visit(base::field("radius", radius, "radius")
               .in(base::kLength)
               .required()
               .positive()
               .like("20 mm"));
-    visit(base::field("length", length, std::move(doc_of_length))
+    visit(base::field("length", length, doc_of_length)
               .in(base::kLength)
               .required()
               .positive()

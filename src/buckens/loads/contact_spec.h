@@ -41,7 +41,7 @@ struct ContactForceSpec {
               .in(base::kStiffness)
               .positive()
               .like("1e7 N/m")
-              .otherwise(std::string("by `modulus`; ") + without));
+              .otherwise(base::lasting_text(std::string("by `modulus`; ") + without)));
     visit(base::field("exponent", exponent, "n of the force, stiffness times overlap to the n")
               .positive()
               .like("1.5")

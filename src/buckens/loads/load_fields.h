@@ -13,23 +13,24 @@ namespace buckens::loads {
 
 /// Part of a body on which the load acts.
 template <class Part>
-base::Field part_field(Part& on, std::string doc, std::string example) {
-  return base::field("on", on, std::move(doc)).required().like(std::move(example));
+base::Field part_field(Part& on, const char* doc, const char* example) {
+  return base::field("on", on, doc).required().like(example);
 }
 
 /// Three laws of time, or an optional triple of them.
 template <class Laws>
-base::Field components_field(std::string name, Laws& laws, base::Dimension dimension,
-                             std::string example) {
-  return base::field(std::move(name), laws, "three components, each a number or a law of time")
+base::Field components_field(const char* name, Laws& laws, base::Dimension dimension,
+                             const char* example) {
+  return base::field(name, laws, "three components, each a number or a law of time")
       .in(dimension)
-      .like(std::move(example));
+      .like(example);
 }
 
 /// @param owner of the axes that the load may follow: "body" or "marker"
 inline base::Field axes_field(LoadAxes& axes, const std::string& owner) {
-  return base::field("axes", axes,
-                     "world axes (`fixed`) or those of the " + owner + " (`following`)");
+  return base::field(
+      "axes", axes,
+      base::lasting_text("world axes (`fixed`) or those of the " + owner + " (`following`)"));
 }
 
 /// Signal that multiplies a load of laws of time.

@@ -31,13 +31,13 @@ using Form = base::MemberType::Form;
 void read_value(const ReadPlace& place, const FieldNote& note, ReadContext& context,
                 const Member& out);
 
-ReadPlace inside(const ReadPlace& place, const YamlNode& node, const std::string& key) {
+ReadPlace inside(const ReadPlace& place, const YamlNode& node, std::string_view key) {
   return {node, join_path(place.path, key)};
 }
 
 /// The keys of a record, including those of its alternatives.
-std::vector<std::string> keys_of(const std::vector<Field>& fields) {
-  std::vector<std::string> out;
+std::vector<std::string_view> keys_of(const std::vector<Field>& fields) {
+  std::vector<std::string_view> out;
   for (const Field& field : fields) {
     if (field.member.type->form() == Form::variant) {
       for (const auto& alternative : field.member.type->alternatives()) {
@@ -78,7 +78,7 @@ bool read_shorthand(const ReadPlace& place, ReadContext& context,
 void read_alternative(const ReadPlace& place, ReadContext& context, const Member& out) {
   const std::vector<base::AlternativeNote> known = out.type->alternatives();
   int count = 0;
-  std::vector<std::string> names;
+  std::vector<std::string_view> names;
   for (std::size_t k = 0; k < known.size(); ++k) {
     names.push_back(known[k].key);
     const YamlNode* node = place.node.find(known[k].key);
@@ -139,7 +139,7 @@ void check_items(const ReadPlace& place, const FieldNote& note, int count) {
   }
   if (place.node.is_list() && (count < 0 || given == count)) return;
   const std::string number = count < 0 ? "" : fmt::format(" of {} values", count);
-  const std::string example = note.example.empty() ? "" : " such as " + note.example;
+  const std::string example = note.example.empty() ? "" : fmt::format(" such as {}", note.example);
   const std::string what =
       place.node.is_list() ? fmt::format("a list of {} values", given) : place.node.description();
   fail(place, fmt::format("expected a list{1}{2}, found {0}", what, number, example));
@@ -253,7 +253,7 @@ void read_record(const ReadPlace& place, ReadContext& context, const Member& rec
   if (SourceLocation* where = record.type->where(record.at)) *where = place.node.where;
   const std::vector<Field> fields = record.fields();
   if (!read_shorthand(place, context, fields)) {
-    const std::vector<std::string> known = keys_of(fields);
+    const std::vector<std::string_view> known = keys_of(fields);
     if (!place.node.is_map()) {
       fail(place, fmt::format("expected a map with the keys {1}, found {0}",
                               place.node.description(), fmt::join(known, ", ")));

@@ -62,7 +62,7 @@ bool is_cut_at_comma(const YamlEntry& entry) {
 
 }  // namespace
 
-void check_keys(const ReadPlace& place, const std::vector<std::string>& known) {
+void check_keys(const ReadPlace& place, const std::vector<std::string_view>& known) {
   for (const YamlEntry& entry : place.node.entries) {
     if (std::find(known.begin(), known.end(), entry.key) != known.end()) continue;
     const std::string what = fmt::format("unknown key \"{}\"{}", entry.key,
@@ -76,7 +76,8 @@ void check_keys(const ReadPlace& place, const std::vector<std::string>& known) {
     if (const auto advice = advice_on_key(entry.key, place.path)) {
       throw InputError(entry.where, what + ": " + *advice);
     }
-    throw InputError(entry.where, what + "." + base::suggestion(entry.key, known));
+    throw InputError(entry.where,
+                     what + "." + base::suggestion(entry.key, {known.begin(), known.end()}));
   }
 }
 
@@ -105,8 +106,8 @@ constexpr CommonMaterial kCommonMaterials[] = {
 };
 
 /// How an entry that a model lacks is written: two lines of the model file.
-std::string example_of(const std::string& kind, const std::string& name) {
-  std::string key = is_name(name) ? name : "my-" + kind;
+std::string example_of(std::string_view kind, const std::string& name) {
+  std::string key = is_name(name) ? name : fmt::format("my-{}", kind);
   if (kind == "section")
     return fmt::format("sections:\n  {}: {{circle: {{diameter: 20 mm}}}}", key);
   if (kind != "material") return "";
@@ -121,7 +122,7 @@ std::string example_of(const std::string& kind, const std::string& name) {
 
 }  // namespace
 
-void fail_unknown(const ReadPlace& place, const std::string& kind, const std::string& name,
+void fail_unknown(const ReadPlace& place, std::string_view kind, const std::string& name,
                   const std::vector<std::string>& known) {
   std::string rest = base::suggestion(name, known);
   if (known.empty()) {

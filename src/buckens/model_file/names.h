@@ -12,13 +12,13 @@
 namespace buckens::model_file {
 
 /// @throws InputError naming the nearest known key if the map at `place` has a key not in `known`
-void check_keys(const ReadPlace& place, const std::vector<std::string>& known);
+void check_keys(const ReadPlace& place, const std::vector<std::string_view>& known);
 
 /// Names become parts of paths and column titles: letters, digits, _ and - only.
 void check_name(const YamlEntry& entry, const std::string& path);
 
 /// `unknown <kind> "<name>". Did you mean ...?`
-[[noreturn]] void fail_unknown(const ReadPlace& place, const std::string& kind,
+[[noreturn]] void fail_unknown(const ReadPlace& place, std::string_view kind,
                                const std::string& name, const std::vector<std::string>& known);
 
 /// Reads "body/marker" or {ground: [x, y, z]} and checks that body and marker exist.

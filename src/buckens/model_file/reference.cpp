@@ -167,7 +167,7 @@ class ReferenceWriter {
     const int next = std::min(level + 1, 4);
     for (const auto* list : {&record.alternatives, &record.fields}) {
       for (const FieldShape& field : *list) {
-        const std::string name = field.note.name;
+        const std::string name(field.note.name);
         write_inner(field.shape, path.empty() ? name : path + "." + name, next);
       }
     }

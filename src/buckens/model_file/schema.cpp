@@ -61,7 +61,7 @@ Json marker_schema() {
 }
 
 std::string description(const FieldShape& field) {
-  std::string out = field.note.doc;
+  std::string out(field.note.doc);
   if (!field.note.any_dimension && !(field.note.dimension == base::kNumber)) {
     out += fmt::format(" [{}]", base::si_unit(field.note.dimension));
   }
@@ -76,7 +76,7 @@ Json record_schema(const Shape& shape) {
     for (const FieldShape& field : *list) {
       Json property = schema_of(field.shape, field.note);
       property["description"] = description(field);
-      properties[field.note.name] = std::move(property);
+      properties[std::string(field.note.name)] = std::move(property);
       if (field.note.is_required) required.push_back(field.note.name);
     }
   }

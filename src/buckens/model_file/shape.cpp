@@ -27,7 +27,7 @@ std::string default_choice(const Member& member) {
 /// Default of a member as the file would write it, "" where there is none worth printing.
 std::string default_text(const Member& member, const base::FieldNote& note) {
   if (note.is_required) return "";
-  if (!note.standard.empty()) return note.standard;
+  if (!note.standard.empty()) return std::string(note.standard);
   if (member.type->form() == Form::choice) return default_choice(member);
   if (const auto* truth = member.get<bool>()) {
     if (note.is_switch) return *truth ? "on" : "off";
@@ -172,7 +172,7 @@ std::vector<std::string> Shape::keys() const {
   std::vector<std::string> out;
   for (const auto* list : {&alternatives, &fields}) {
     for (const FieldShape& field : *list) {
-      if (!field.note.name.empty()) out.push_back(field.note.name);
+      if (!field.note.name.empty()) out.emplace_back(field.note.name);
     }
   }
   return out;

@@ -13,6 +13,8 @@ namespace buckens::model_file {
 
 namespace {
 
+using Form = base::MemberType::Form;
+
 // Durations and times of a table are read from decimals; see time_law.cpp.
 constexpr double kRounding = 1e-9;
 
@@ -22,7 +24,6 @@ class RangeChecker {
   explicit RangeChecker(double duration) : duration_(duration) {}
 
   void visit(const base::Member& member) const {
-    using Form = base::MemberType::Form;
     if (const auto* law = member.get<base::TimeLaw>()) check(*law);
     if (const auto* law = member.get<base::SignalLaw>()) {
       if (!law->formula) check(law->law);

@@ -152,7 +152,8 @@ std::string expectation(const FieldNote& note) {
       note.any_dimension ? "a number or quantity" : base::dimension_name(note.dimension);
   const bool is_single = !note.example.empty() && note.example[0] != '[' && note.example[0] != '"';
   const std::string word = note.word.empty() ? "" : fmt::format("{} or ", note.word);
-  return word + name + " such as " + (is_single ? note.example : example_of(note.dimension));
+  return word + name + " such as " +
+         (is_single ? std::string(note.example) : example_of(note.dimension));
 }
 
 Formula read_formula(const ReadPlace& place, const FieldNote& note,

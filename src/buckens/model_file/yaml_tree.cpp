@@ -205,14 +205,14 @@ std::string hint(const std::string& text, const YAML::Mark& mark) {
 
 }  // namespace
 
-const YamlNode* YamlNode::find(const std::string& key) const {
+const YamlNode* YamlNode::find(std::string_view key) const {
   for (const YamlEntry& entry : entries) {
     if (entry.key == key) return &entry.value;
   }
   return nullptr;
 }
 
-YamlNode* YamlNode::find(const std::string& key) {
+YamlNode* YamlNode::find(std::string_view key) {
   return const_cast<YamlNode*>(static_cast<const YamlNode*>(this)->find(key));
 }
 

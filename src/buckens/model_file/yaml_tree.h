@@ -25,8 +25,8 @@ struct YamlNode {
   bool is_list() const { return kind == Kind::list; }
   bool is_map() const { return kind == Kind::map; }
   /// Value of a key, or null.
-  const YamlNode* find(const std::string& key) const;
-  YamlNode* find(const std::string& key);
+  const YamlNode* find(std::string_view key) const;
+  YamlNode* find(std::string_view key);
   /// Follows a path such as "beams.0.section" as far as it goes.
   const YamlNode& deepest(const std::string& path) const;
   /// "a list", "a map", "no value", or the text of a scalar in quotation marks.

@@ -41,7 +41,7 @@ void collect(const std::string& path, const base::Member& kind, std::vector<Para
     } else if (law == nullptr) {
       continue;
     }
-    out.push_back({path + "." + field.note.name, std::move(field.note), law});
+    out.push_back({join_path(path, field.note.name), field.note, law});
   }
 }
 
@@ -68,8 +68,8 @@ void collect_contact(const std::string& path, const base::Member& kind,
   for (base::Field& field : kind.fields()) {
     for (Parameter& one : known) {
       if (one.path != field.note.name) continue;
-      one.path = path + "." + field.note.name;
-      one.note = std::move(field.note);
+      one.path = join_path(path, field.note.name);
+      one.note = field.note;
       out.push_back(std::move(one));
       break;
     }

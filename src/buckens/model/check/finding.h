@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace buckens::model {
 
@@ -15,8 +16,10 @@ struct Finding {
 using Found = std::optional<Finding>;
 
 /// "a.b"; either may be empty.
-inline std::string join_path(const std::string& path, const std::string& key) {
-  return path.empty() || key.empty() ? path + key : path + "." + key;
+inline std::string join_path(const std::string& path, std::string_view key) {
+  std::string out = path;
+  if (!path.empty() && !key.empty()) out += '.';
+  return out += key;
 }
 
 /// Puts "key." before the path of a finding.

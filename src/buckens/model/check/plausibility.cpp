@@ -73,9 +73,10 @@ class Doubts {
   }
 
   template <class Work>
-  void below(const std::string& key, Work&& work) {
+  void below(std::string_view key, Work&& work) {
     const std::size_t length = path_.size();
-    if (!key.empty()) path_ += (path_.empty() ? "" : ".") + key;
+    if (!key.empty() && !path_.empty()) path_ += '.';
+    path_ += key;
     work();
     path_.resize(length);
   }

@@ -15,6 +15,8 @@ namespace buckens::model {
 
 namespace {
 
+using Form = base::MemberType::Form;
+
 /// The shortest text that gives the same bits again.
 std::string text_of(double value) { return fmt::format("{}", value); }
 
@@ -25,7 +27,6 @@ class LineCollector {
       : lines_(lines), duration_(duration) {}
 
   void add(const std::string& path, const base::Member& member) {
-    using Form = base::MemberType::Form;
     switch (member.type->form()) {
       case Form::value:
         return add_value(path, member);
@@ -33,7 +34,8 @@ class LineCollector {
         return put(path, member.type->choices()[member.type->index(member.at)]);
       case Form::record:
         for (const base::Field& field : member.fields()) {
-          add(field.note.name.empty() ? path : path + "." + field.note.name, field.member);
+          add(field.note.name.empty() ? path : fmt::format("{}.{}", path, field.note.name),
+              field.member);
         }
         return;
       case Form::variant: {

@@ -134,7 +134,8 @@ struct InitialJointSpec {
                 .in(own.is_angle ? base::kAngle : base::kLength)
                 .like(own.is_angle ? "30 deg" : "20 mm")
                 .otherwise("as placed, or as other joints ask for"));
-      visit(base::field(std::string(own.rate_key), rates[k], fmt::format("rate of `{}`", own.key))
+      visit(base::field(own.rate_key, rates[k],
+                        base::lasting_text(fmt::format("rate of `{}`", own.key)))
                 .in(own.is_angle ? base::kAngularVelocity : base::kVelocity)
                 .like(own.is_angle ? "2 rad/s" : "0.1 m/s")
                 .otherwise("as the velocities of bodies ask for"));
