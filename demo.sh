@@ -21,19 +21,35 @@ cd "$here"
 
 # Only what the demonstration needs, unless this is already configured for more.
 buckens_packages=("${buckens_build_packages[@]}")
+buckens_needs_node=no
 buckens_needs_browser=no
 [ "$with_mpi" = no ] || buckens_packages+=("${buckens_mpi_packages[@]}")
-buckens_setup
+install_debian_packages
 only=()
 [ -f build/release/CMakeCache.txt ] || only=(-DBUCKENS_TESTS=OFF -DBUCKENS_BENCH=OFF -DBUCKENS_PYTHON_MODULE=OFF)
-parts=(buckens_program buckens_viewer)
+parts=(buckens_program)
+what="the program"
 if [ "$with_mpi" = yes ]; then
   only+=(-DBUCKENS_MPI=ON)
   parts+=(buckens_petsc)
 fi
+# Node.js and its packages are installed while the program compiles.
+if can_make_page; then
+  parts+=(buckens_viewer)
+  what+=" and the viewer page"
+else
+  say "Installing what makes the viewer page, beside the build"
+  start_page_setup
+fi
 configure_release "${only[@]}"
-say "Building the program and the viewer page"
+say "Building $what"
 build_release "${parts[@]}"
+if [ "$what" = "the program" ]; then
+  finish_page_setup
+  configure_release "${only[@]}"
+  say "Building the viewer page"
+  build_release buckens_viewer
+fi
 
 program=build/release/bin/buckens
 model=examples/slider_crank/slider_crank.yaml

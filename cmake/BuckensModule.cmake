@@ -1,10 +1,14 @@
 # One library per module, and the one library that is delivered.
 #
 # buckens_module(name floor [library...]) makes, from the *.cpp of src/buckens/<name> and its rooms,
-#   buckens_<name>_objects  the compiled sources (absent while there are none),
-#   buckens_<name>          what tests and higher floors link: this module and all lower floors.
+#   buckens_<name>_objects        the compiled sources (absent while there are none),
+#   buckens_<name>_light_objects  those that match BUCKENS_LIGHT, compiled without optimisation,
+#   buckens_<name>                what tests and higher floors link: this module and all lower floors.
 # buckens_library() gathers the objects of all modules into buckens::buckens.
 # Sources are globbed: adding a file needs no change here.
+#
+# Of templates and inline functions that several objects hold, the linker takes the first. So optimised objects precede
+# light ones wherever objects are gathered, and steps never run a copy that is not optimised.
 
 set(BUCKENS_GENERATED_DIR "${PROJECT_BINARY_DIR}/generated")
 
@@ -35,14 +39,30 @@ function(buckens_module name floor)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/buckens/${name}/*.cpp")
   list(FILTER sources EXCLUDE REGEX "/src/buckens/${name}/test/")
   list(REMOVE_ITEM sources ${BUCKENS_LEFT_OUT})
-  if(sources)
-    add_library(buckens_${name}_objects OBJECT ${sources})
-    target_link_libraries(buckens_${name}_objects PRIVATE buckens_common ${third_party})
-    buckens_in_pieces(buckens_${name}_objects "${PROJECT_SOURCE_DIR}/src")
-    add_library(buckens_${name} STATIC EXCLUDE_FROM_ALL $<TARGET_OBJECTS:buckens_${name}_objects>)
+  set(light_sources ${sources})
+  list(FILTER light_sources INCLUDE REGEX "${BUCKENS_LIGHT}")
+  list(REMOVE_ITEM sources ${light_sources})
+  set(objects "")
+  set(piece_size 40)
+  set(light_piece_size 48)
+  foreach(kind IN ITEMS "" light_)
+    if(${kind}sources)
+      set(target buckens_${name}_${kind}objects)
+      add_library(${target} OBJECT ${${kind}sources})
+      target_link_libraries(${target} PRIVATE buckens_common ${third_party})
+      buckens_in_pieces(${target} "${PROJECT_SOURCE_DIR}/src" ${${kind}piece_size})
+      list(APPEND objects $<TARGET_OBJECTS:${target}>)
+      string(TOUPPER "BUCKENS_${kind}OBJECTS" property)
+      set_property(GLOBAL APPEND PROPERTY ${property} ${target})
+    endif()
+  endforeach()
+  if(light_sources)
+    target_compile_options(buckens_${name}_light_objects PRIVATE $<$<CONFIG:Release>:-O0>)
+  endif()
+  if(objects)
+    add_library(buckens_${name} STATIC EXCLUDE_FROM_ALL ${objects})
     set_target_properties(buckens_${name} PROPERTIES LINKER_LANGUAGE CXX)
     target_link_libraries(buckens_${name} PUBLIC ${lower} buckens_common ${third_party})
-    set_property(GLOBAL APPEND PROPERTY BUCKENS_OBJECTS buckens_${name}_objects)
   else()
     add_library(buckens_${name} INTERFACE)
     target_link_libraries(buckens_${name} INTERFACE ${lower} buckens_common ${third_party})
@@ -59,17 +79,20 @@ configure_file("${PROJECT_SOURCE_DIR}/cmake/version.h.in"
                "${BUCKENS_GENERATED_DIR}/buckens/base/version.h" @ONLY)
 
 function(buckens_library)
-  get_property(object_libraries GLOBAL PROPERTY BUCKENS_OBJECTS)
+  get_property(optimised GLOBAL PROPERTY BUCKENS_OBJECTS)
+  get_property(light GLOBAL PROPERTY BUCKENS_LIGHT_OBJECTS)
   get_property(third_party GLOBAL PROPERTY BUCKENS_THIRD_PARTY)
   set(parts "")
-  foreach(objects IN LISTS object_libraries)
+  foreach(objects IN LISTS optimised light)
     list(APPEND parts $<TARGET_OBJECTS:${objects}>)
   endforeach()
-  # An archive needs at least one member.
-  set(stub "${BUCKENS_GENERATED_DIR}/buckens_library.cpp")
-  file(CONFIGURE OUTPUT "${stub}" CONTENT
-       "#include \"buckens/base/version.h\"\nnamespace { [[maybe_unused]] const char* version = buckens::kVersion; }\n")
-  add_library(buckens STATIC ${parts} "${stub}")
+  # One object of all parts: from an archive of many, programs would take them in an order of their own.
+  set(joined "${CMAKE_CURRENT_BINARY_DIR}/buckens.o")
+  add_custom_command(OUTPUT "${joined}" COMMAND "${CMAKE_CXX_COMPILER}" -r -nostdlib -o "${joined}" ${parts}
+                     DEPENDS ${parts} COMMAND_EXPAND_LISTS VERBATIM COMMENT "Joining the objects of the library")
+  set_source_files_properties("${joined}" PROPERTIES EXTERNAL_OBJECT TRUE GENERATED TRUE)
+  add_library(buckens STATIC "${joined}")
+  set_target_properties(buckens PROPERTIES LINKER_LANGUAGE CXX)
   add_library(buckens::buckens ALIAS buckens)
   target_compile_features(buckens PUBLIC cxx_std_20)
   target_include_directories(

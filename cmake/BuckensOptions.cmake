@@ -65,61 +65,53 @@ endif()
 # unnamed namespaces must differ within a piece. Sources with flags of their own stay apart, so those are
 # to be set before.
 #
-# Sources that match BUCKENS_LIGHT have pieces of their own, which are optimised less (-O1): they work before and after
-# the steps of a run, where what is computed comes from the library's other sources, and GCC takes half as long for them.
-#
 # CMake's UNITY_BUILD writes absolute paths into its pieces. These hold paths below `base`, which must be
 # an include directory of the target: another checkout makes the same pieces, and the compiler's cache
 # knows them.
 function(buckens_make_pieces target base size)
   get_target_property(sources ${target} SOURCES)
   set(left "")
-  set(full "")
-  set(light "")
+  set(joined "")
   foreach(source IN LISTS sources)
     get_source_file_property(flags "${source}" COMPILE_OPTIONS)
     get_source_file_property(alone "${source}" SKIP_UNITY_BUILD_INCLUSION)
     cmake_path(IS_PREFIX base "${source}" is_below)
     if(flags OR alone OR NOT is_below)
       list(APPEND left "${source}")
-    elseif(BUCKENS_LIGHT AND source MATCHES "${BUCKENS_LIGHT}")
-      list(APPEND light "${source}")
     else()
-      list(APPEND full "${source}")
+      list(APPEND joined "${source}")
     endif()
   endforeach()
-  set(number 0)
-  while(full OR light)
+  # Pieces of about the same number of sources.
+  list(LENGTH joined left_over)
+  set(pieces 1)
+  if(size GREATER 0)
+    math(EXPR pieces "(${left_over} + ${size} - 1) / ${size}")
+  endif()
+  foreach(number RANGE ${pieces} 1 -1)
+    list(LENGTH joined left_over)
+    if(left_over EQUAL 0)
+      break()
+    endif()
+    math(EXPR count "(${left_over} + ${number} - 1) / ${number}")
     set(text "")
-    if(full)
-      set(joined full)
-    else()
-      set(joined light)
-    endif()
-    list(LENGTH ${joined} count)
-    if(size GREATER 0 AND size LESS count)
-      set(count ${size})
-    endif()
     foreach(k RANGE 1 ${count})
-      list(POP_FRONT ${joined} source)
+      list(POP_FRONT joined source)
       cmake_path(RELATIVE_PATH source BASE_DIRECTORY "${base}" OUTPUT_VARIABLE path)
       string(APPEND text "#include \"${path}\"\n")
     endforeach()
-    math(EXPR number "${number} + 1")
     set(piece "${PROJECT_BINARY_DIR}/pieces/${target}/${number}.cpp")
     file(CONFIGURE OUTPUT "${piece}" CONTENT "${text}" @ONLY)
-    if(joined STREQUAL "light")
-      set_source_files_properties("${piece}" PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
-    endif()
     list(APPEND left "${piece}")
-  endwhile()
+  endforeach()
   set_property(TARGET ${target} PROPERTY SOURCES ${left})
 endfunction()
 
-# Pieces of sixteen where BUCKENS_UNITY asks for them. Compiling is reading headers and making templates
-# for each piece anew: two pieces of eight take 1.6 times as long as one of sixteen, which needs 2 GB.
-function(buckens_in_pieces target base)
+# Pieces of `size` sources where BUCKENS_UNITY asks for them. Compiling is mostly reading headers and making templates,
+# for each piece anew: one piece of 32 takes a seventh less time than two of sixteen, and a third less without optimisation.
+# It needs up to 2 GB.
+function(buckens_in_pieces target base size)
   if(BUCKENS_UNITY)
-    buckens_make_pieces(${target} "${base}" 16)
+    buckens_make_pieces(${target} "${base}" ${size})
   endif()
 endfunction()

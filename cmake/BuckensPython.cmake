@@ -23,12 +23,13 @@ file(GLOB binding_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/python/bindin
 # Without extras: no link-time optimisation, which takes long; nothing here is computed.
 pybind11_add_module(buckens_python MODULE NO_EXTRAS ${binding_sources})
 # pybind11 costs each source more than its own lines.
-buckens_in_pieces(buckens_python "${PROJECT_SOURCE_DIR}/python")
+buckens_in_pieces(buckens_python "${PROJECT_SOURCE_DIR}/python" 32)
 set_target_properties(buckens_python PROPERTIES OUTPUT_NAME _core LIBRARY_OUTPUT_DIRECTORY
                                                                   "${package}")
 target_include_directories(buckens_python PRIVATE "${PROJECT_SOURCE_DIR}/python")
 target_link_libraries(buckens_python PRIVATE buckens buckens_options)
 target_compile_options(buckens_python PRIVATE $<$<CONFIG:Release>:-O1>)
+buckens_link_library_first(buckens_python buckens)
 
 file(GLOB package_files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/python/buckens/*")
 list(FILTER package_files INCLUDE REGEX "\\.(py|pyi|typed)$")

@@ -53,7 +53,7 @@ foreach(module IN LISTS modules)
   file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/buckens/${module}/test/*.cpp")
   if(sources)
     buckens_test(${module}_test unit buckens_${module} ${sources})
-    buckens_in_pieces(${module}_test "${PROJECT_SOURCE_DIR}/src")
+    buckens_in_pieces(${module}_test "${PROJECT_SOURCE_DIR}/src" 32)
   endif()
 endforeach()
 
@@ -61,7 +61,7 @@ file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/verification/*/*_test
      "${PROJECT_SOURCE_DIR}/verification/*.cpp")
 if(sources)
   buckens_test(verification_test verify buckens ${sources})
-  buckens_in_pieces(verification_test "${PROJECT_SOURCE_DIR}")
+  buckens_in_pieces(verification_test "${PROJECT_SOURCE_DIR}" 32)
 endif()
 
 file(GLOB kill_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/kill/*.cpp")

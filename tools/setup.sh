@@ -23,11 +23,14 @@ buckens_packages=(
 )
 # For large bodies: iterative solves, runs over several processes (-DBUCKENS_MPI=ON).
 buckens_mpi_packages=(libpetsc-real-dev openmpi-bin)
-# Whether a browser belongs to them: pages are tested with it.
+# Whether Node.js and npm belong to them, which make the viewer page, and a browser, which tests it.
+buckens_needs_node=yes
 buckens_needs_browser=yes
 
 # Object files are cached by the contents of the sources, not by the location of the checkout.
 export CCACHE_BASEDIR="$buckens_root"
+# What a source includes is taken from the compiler's own list, not from a run of the preprocessor.
+export CCACHE_DEPEND=1
 # Options that change the compiler's memory, not what it makes.
 export CCACHE_IGNOREOPTIONS="--param=ggc-*"
 
@@ -54,8 +57,10 @@ missing_packages() {
   for package in "${buckens_packages[@]}"; do
     grep -qxF "$package" <<<"$installed" || echo "$package"
   done
-  has_command node || echo nodejs
-  has_command npm || echo npm
+  if [ "$buckens_needs_node" = yes ]; then
+    has_command node || echo nodejs
+    has_command npm || echo npm
+  fi
   [ "$buckens_needs_browser" = no ] || find_chromium >/dev/null || printf 'chromium\nfonts-liberation\n'
 }
 
@@ -110,19 +115,54 @@ install_debian_packages() {
   }
 }
 
+# Whether npm's packages are those of the lock file.
+has_npm_packages() {
+  local viewer="$buckens_root/viewer"
+  [ "$(cat "$viewer/node_modules/.buckens-lock" 2>/dev/null)" = "$(cksum <"$viewer/package-lock.json")" ]
+}
+
 # npm ci only when the lock file changed since the last time.
 install_npm_packages() {
-  local viewer="$buckens_root/viewer" stamp sum
+  local viewer="$buckens_root/viewer"
   [ -f "$viewer/package-lock.json" ] || return 0
-  stamp="$viewer/node_modules/.buckens-lock"
-  sum="$(cksum <"$viewer/package-lock.json")"
-  [ -f "$stamp" ] && [ "$(cat "$stamp")" = "$sum" ] && return 0
+  has_npm_packages && return 0
   say "Installing npm packages of the viewer"
   (cd "$viewer" && npm ci --no-audit --no-fund --loglevel=error) || {
     fail "npm ci failed in viewer/. It needs the network once; see the lines above."
     return 1
   }
-  echo "$sum" >"$stamp"
+  cksum <"$viewer/package-lock.json" >"$viewer/node_modules/.buckens-lock"
+}
+
+can_make_page() { has_command node && has_command npm && has_npm_packages; }
+
+# Installs what the viewer page is made with while other work goes on, unless sudo would ask for a password.
+# finish_page_setup waits for it.
+start_page_setup() {
+  page_log="$(mktemp)"
+  if [ "$(root_prefix)" = sudo ] && ! sudo -n true 2>/dev/null; then
+    install_page_packages
+    return
+  fi
+  install_page_packages >"$page_log" 2>&1 &
+  page_setup=$!
+}
+
+install_page_packages() (
+  buckens_packages=()
+  buckens_needs_node=yes
+  buckens_needs_browser=no
+  install_debian_packages && install_npm_packages
+)
+
+finish_page_setup() {
+  local status=0
+  if [ -n "${page_setup:-}" ]; then
+    wait "$page_setup" || status=$?
+    [ "$status" -eq 0 ] || cat "$page_log" >&2
+  fi
+  rm -f "$page_log"
+  return "$status"
 }
 
 # The compiler that the build folder has, or will have: as in cmake/BuckensCompiler.cmake, which leaves none in the cache.

@@ -36,6 +36,9 @@ expect "programs count by their command" "nodejs npm chromium fonts-liberation "
 
 buckens_needs_browser=no
 expect "a browser only where one is needed" "nodejs npm " "$(missing_packages | tr '\n' ' ')"
+buckens_needs_node=no
+expect "Node.js only where it is needed" "" "$(missing_packages | tr '\n' ' ')"
+buckens_needs_node=yes
 buckens_needs_browser=yes
 for package in "${buckens_build_packages[@]}"; do
   expect_words "packages of the build are among all" "$package" "$all"
@@ -61,6 +64,19 @@ expect_words "only what is missing" "--no-install-recommends libmuparser-dev" "$
 sudo() { return 100; }
 if got="$(install_debian_packages 2>&1)"; then expect "failing apt-get" failure success; fi
 expect_words "message of a failing apt-get" "could not install: libmuparser-dev" "$got"
+
+# What makes the page is installed beside other work; its messages appear where it fails.
+root_prefix() { echo ""; }
+install_page_packages() { echo "npm ci failed"; return 1; }
+start_page_setup
+status=0
+finish_page_setup 2>"$log" || status=$?
+expect "failing set-up of the page" 1 "$status"
+expect "its messages" "npm ci failed" "$(cat "$log")"
+install_page_packages() { echo "fine"; }
+start_page_setup
+finish_page_setup 2>"$log"
+expect "a set-up that succeeds is silent" "" "$(cat "$log")"
 
 # Another system: prints the list and continues.
 is_debian() { false; }

@@ -15,10 +15,9 @@ namespace buckens::loads {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using ShapeKind = ContactShape::Kind;
 
 namespace {
-
-using ShapeKind = ContactShape::Kind;
 
 constexpr std::size_t kRimPoints = 4;
 // Sine of the tilt below which the lowest point of a rim says nothing.

@@ -13,7 +13,7 @@ using model::test::Described;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-double spin(const Simulation& simulation) { return simulation.frame("wheel").w.z(); }
+double wheel_spin(const Simulation& simulation) { return simulation.frame("wheel").w.z(); }
 
 TEST(SetSignal, AMotorFollowsASettingThatIsSet) {
   Described m;
@@ -40,7 +40,7 @@ TEST(SetSignal, AMotorFollowsASettingThatIsSet) {
   simulation.set_signal("command", 2);
   EXPECT_EQ(simulation.signal("command"), 2);
   simulation.advance_to(0.5);
-  EXPECT_NEAR(spin(simulation), 2.0, 1e-12);  // 4 rad/s² from the first instant on
+  EXPECT_NEAR(wheel_spin(simulation), 2.0, 1e-12);  // 4 rad/s² from the first instant on
   const base::SavedValues saved = simulation.save();
   Simulation other(*built);
   other.restore(saved);
@@ -49,11 +49,11 @@ TEST(SetSignal, AMotorFollowsASettingThatIsSet) {
     one->on_step([](const StepView& now) { now.set_signal("command", -now.time()); });
     one->run();
   }
-  EXPECT_EQ(spin(simulation), spin(other));
+  EXPECT_EQ(wheel_spin(simulation), wheel_spin(other));
   // What is set at the end of a step acts from the next one on: ω̇ = 4 at the first two instants,
   // then −2t of the instant before. The trapezoidal rule over the 50 steps makes −0.6651; the
   // method, which weighs the jump a little differently, deviates by 3e-7.
-  EXPECT_NEAR(spin(simulation), 2.0 - 0.6651, 1e-6);
+  EXPECT_NEAR(wheel_spin(simulation), 2.0 - 0.6651, 1e-6);
   EXPECT_THAT([&] { other.set_signal("comand", 1); },
               ThrowsMessage<InputError>(HasSubstr("Did you mean \"command\"?")));
 }

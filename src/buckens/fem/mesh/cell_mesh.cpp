@@ -8,14 +8,14 @@ namespace buckens::fem {
 namespace {
 
 using Cell = std::array<int, 27>;
-using Place = Eigen::Vector3i;  // of a point in its cell, 0…2 each
+using CellPoint = Eigen::Vector3i;  // of a point in its cell, 0…2 each
 
-int at(const Cell& cell, const Place& p) {
+int at(const Cell& cell, const CellPoint& p) {
   return cell[static_cast<std::size_t>(p.x() + 3 * p.y() + 9 * p.z())];
 }
 
-/// Where the nodes of a hexahedron_parts are in its cell.
-Place hexahedron_place(const SolidTopology& topology, int node) {
+/// Where a node of the hexahedron lies in its cell.
+CellPoint hexahedron_place(const SolidTopology& topology, int node) {
   const Eigen::Vector3d natural = topology.natural.col(node);
   return (natural + Eigen::Vector3d::Ones()).cast<int>();
 }
@@ -27,13 +27,13 @@ struct Part {
 };
 
 /// The element with its corners at the given places of a cell; mid-side nodes lie halfway.
-Part make_part(const Cell& cell, SolidKind kind, const std::vector<Place>& corners) {
+Part make_part(const Cell& cell, SolidKind kind, const std::vector<CellPoint>& corners) {
   const SolidTopology& topology = solid_topology(kind);
   Part out;
-  for (const Place& corner : corners) out.points.push_back(at(cell, corner));
+  for (const CellPoint& corner : corners) out.points.push_back(at(cell, corner));
   for (int node = topology.num_corners; node < topology.num_nodes; ++node) {
     const auto& [a, b] = topology.edges[static_cast<std::size_t>(node - topology.num_corners)];
-    const Place& first = corners[static_cast<std::size_t>(a)];
+    const CellPoint& first = corners[static_cast<std::size_t>(a)];
     out.points.push_back(at(cell, (first + corners[static_cast<std::size_t>(b)]) / 2));
   }
   for (std::size_t face = 0; face < topology.faces.size(); ++face) {
@@ -50,7 +50,7 @@ Part make_part(const Cell& cell, SolidKind kind, const std::vector<Place>& corne
 
 std::vector<Part> hexahedron_parts(const Cell& cell, SolidKind kind) {
   const SolidTopology& hex = solid_topology(SolidKind::hex8);
-  std::vector<Place> corners;
+  std::vector<CellPoint> corners;
   for (int corner = 0; corner < 8; ++corner) corners.push_back(hexahedron_place(hex, corner));
   return {make_part(cell, kind, corners)};
 }
@@ -60,7 +60,7 @@ std::vector<Part> wedges(const Cell& cell, SolidKind kind) {
   const SolidTopology& hex = solid_topology(SolidKind::hex8);
   std::vector<Part> out;
   for (const auto& corners : {std::array{0, 1, 2, 4, 5, 6}, std::array{0, 2, 3, 4, 6, 7}}) {
-    std::vector<Place> places;
+    std::vector<CellPoint> places;
     for (const int corner : corners) places.push_back(hexahedron_place(hex, corner));
     out.push_back(make_part(cell, kind, places));
   }
@@ -72,7 +72,7 @@ std::vector<Part> pyramids(const Cell& cell, SolidKind kind) {
   const SolidTopology& hex = solid_topology(SolidKind::hex8);
   std::vector<Part> out;
   for (const SolidFace& face : hex.faces) {
-    std::vector<Place> places;  // counter-clockwise seen from inside
+    std::vector<CellPoint> places;  // counter-clockwise seen from inside
     for (const std::size_t k : {0, 3, 2, 1}) {
       places.push_back(hexahedron_place(hex, face.corners[k]));
     }
@@ -106,7 +106,7 @@ std::vector<Part> tetrahedra(const Cell& cell, SolidKind kind) {
   const SolidTopology& hex = solid_topology(SolidKind::hex8);
   std::vector<Part> out;
   for (const auto& corners : split(cell, hex)) {
-    std::vector<Place> places;
+    std::vector<CellPoint> places;
     for (const int corner : corners) places.push_back(hexahedron_place(hex, corner));
     out.push_back(make_part(cell, kind, places));
   }

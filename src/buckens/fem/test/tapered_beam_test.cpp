@@ -22,8 +22,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using linalg::Vector;
 
-constexpr double kPi = std::numbers::pi;
-
 const Material& steel_material() {
   static const Material m = Material::isotropic(2e11, 0.25, 8000);
   return m;
@@ -103,7 +101,7 @@ TEST(TaperedBeam, HasMassCentreAndInertiaOfACone) {
     const SkewBeam beam(tapered(cone(D, d), BeamTheory::timoshenko), elements);
     const FeModel fe = assemble(beam.structure);
     const double sum = D * D + D * d + d * d;
-    const double mass = 8000 * kPi / 12 * sum;
+    const double mass = 8000 * std::numbers::pi / 12 * sum;
     const double centre = 0.25 * (D * D + 2 * D * d + 3 * d * d) / sum;
     EXPECT_NEAR(fe.shape.mass, mass, 1e-12 * mass);
     EXPECT_LT((fe.shape.com - beam.structure.nodes[0].position - centre * beam.t).norm(), 1e-13);
@@ -117,7 +115,7 @@ TEST(TaperedBeam, HasMassCentreAndInertiaOfACone) {
     const Vector3d across = beam.t.cross(Vector3d::UnitX()).normalized();
     const auto density = [&](double x) {
       const double at = D + (d - D) * x;
-      return 8000 * kPi * at * at / 4 * ((x - centre) * (x - centre) + at * at / 16);
+      return 8000 * std::numbers::pi * at * at / 4 * ((x - centre) * (x - centre) + at * at / 16);
     };
     const double boole = (7 * density(0) + 32 * density(0.25) + 12 * density(0.5) +
                           32 * density(0.75) + 7 * density(1)) /
@@ -141,9 +139,10 @@ TEST(TaperedBeam, BendsTwistsAndStretchesExactlyUnderEndLoads) {
     };
     // 64/(3π E) L³/(d D³), 4/(π E) L/(D d), 32/(3π G) (D² + D d + d²)/(D³ d³) L. Tolerance: that of
     // twelve Gauss points, and rounding.
-    const double bend = 64 / (3 * kPi * E) / (d * std::pow(D, 3));
-    const double stretch = 4 / (kPi * E) / (D * d);
-    const double twist = 32 / (3 * kPi * G) * (D * D + D * d + d * d) / std::pow(D * d, 3);
+    const double bend = 64 / (3 * std::numbers::pi * E) / (d * std::pow(D, 3));
+    const double stretch = 4 / (std::numbers::pi * E) / (D * d);
+    const double twist =
+        32 / (3 * std::numbers::pi * G) * (D * D + D * d + d * d) / std::pow(D * d, 3);
     EXPECT_NEAR(answer(0, across), bend, 1e-9 * bend);
     EXPECT_NEAR(answer(0, beam.t), stretch, 1e-9 * stretch);
     EXPECT_NEAR(answer(3, beam.t), twist, 1e-9 * twist);
@@ -161,7 +160,7 @@ TEST(TaperedBeam, ShearsAsItsSectionsDo) {
     return held_at_first(fe, f).segment<3>(dof_of(fe, beam.nodes.back(), 0)).dot(across);
   };
   // ∫ dx/(κ G A) with κ = 6/7; a thousandth of the deflection, which is known to 1e-9.
-  const double shear = 7.0 / 6 * 4 / (kPi * 8e10) / (D * d);
+  const double shear = 7.0 / 6 * 4 / (std::numbers::pi * 8e10) / (D * d);
   EXPECT_NEAR(bend(BeamTheory::timoshenko) - bend(BeamTheory::euler_bernoulli), shear,
               1e-5 * shear);
 }
@@ -238,8 +237,8 @@ TEST(TaperedBeam, KnowsSectionsAndForcesAtItsEnds) {
   const Recovery recovery(fe);
   const linalg::Matrix stress = recovery.stresses(recovery.section_forces(u));
   // The larger of both ends of each element: that at its thin end, 4 F/(π d²).
-  EXPECT_NEAR(stress(0, 0), 4e3 / (kPi * 0.07 * 0.07), 1.0);
-  EXPECT_NEAR(stress(0, 1), 4e3 / (kPi * d * d), 1.0);
+  EXPECT_NEAR(stress(0, 0), 4e3 / (std::numbers::pi * 0.07 * 0.07), 1.0);
+  EXPECT_NEAR(stress(0, 1), 4e3 / (std::numbers::pi * d * d), 1.0);
   // The stiffening tension is constant along the beam.
   const linalg::Vector tension = GeometricStiffness(fe).axial_forces(u);
   EXPECT_NEAR(tension[0], 1e3, 1e-6);
@@ -297,7 +296,7 @@ TEST(CurvedBeam, HasItsNodesOnTheArc) {
   const QuarterCircle quarter(7);
   ASSERT_EQ(quarter.beam.nodes.size(), 8u);
   for (std::size_t k = 0; k < 8; ++k) {
-    const double angle = kPi / 2 * static_cast<double>(k) / 7;
+    const double angle = std::numbers::pi / 2 * static_cast<double>(k) / 7;
     const Vector3d place(1 - std::cos(angle), std::sin(angle), 0);
     const auto node = static_cast<std::size_t>(quarter.beam.nodes[k]);
     EXPECT_LT((quarter.structure.nodes[node].position - place).norm(), 1e-15) << k;
@@ -305,7 +304,7 @@ TEST(CurvedBeam, HasItsNodesOnTheArc) {
 }
 
 TEST(CurvedBeam, DeflectsAsCastiglianoSaysWithSecondOrder) {
-  const double E = 2e11, G = 8e10, I = kPi * std::pow(0.02, 4) / 64, A = kPi * 1e-4;
+  const double E = 2e11, G = 8e10, I = std::numbers::pi * std::pow(0.02, 4) / 64, A = kPi * 1e-4;
   struct Case {
     Vector3d force;
     double exact;
@@ -313,9 +312,9 @@ TEST(CurvedBeam, DeflectsAsCastiglianoSaysWithSecondOrder) {
   // From the tip φ = 0 to the root: a force along x gives M = R (1 − cos φ), N = cos φ, one along y
   // M = R sin φ, N = sin φ, one across bending sin φ and torsion 1 − cos φ.
   const Case cases[] = {
-      {Vector3d::UnitX(), (3 * kPi / 4 - 2) / (E * I) + kPi / 4 / (E * A)},
-      {Vector3d::UnitY(), kPi / 4 / (E * I) + kPi / 4 / (E * A)},
-      {Vector3d::UnitZ(), kPi / 4 / (E * I) + (3 * kPi / 4 - 2) / (G * 2 * I)},
+      {Vector3d::UnitX(), (3 * std::numbers::pi / 4 - 2) / (E * I) + kPi / 4 / (E * A)},
+      {Vector3d::UnitY(), std::numbers::pi / 4 / (E * I) + kPi / 4 / (E * A)},
+      {Vector3d::UnitZ(), std::numbers::pi / 4 / (E * I) + (3 * kPi / 4 - 2) / (G * 2 * I)},
   };
   for (const Case& c : cases) {
     const double coarse = QuarterCircle(8).answer(c.force) / c.exact - 1;
@@ -397,7 +396,7 @@ TEST(CurvedBeam, SplinesGoThroughTheirPoints) {
   // Points of a circle: the spline approximates it to fourth order, except at the ends.
   std::vector<Vector3d> round;
   for (int k = 0; k <= 8; ++k) {
-    round.emplace_back(std::cos(kPi * k / 8), std::sin(kPi * k / 8), 0);
+    round.emplace_back(std::cos(std::numbers::pi * k / 8), std::sin(kPi * k / 8), 0);
   }
   const auto places = divide_path(BeamPath::spline, round, 32);
   for (std::size_t k = 8; k <= 24; ++k) EXPECT_NEAR(places[k].norm(), 1.0, 1e-3);
