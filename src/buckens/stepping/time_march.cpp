@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -24,8 +25,12 @@ constexpr double kPerHalving = 8.0;
 constexpr double kFade = 0.5;
 constexpr int kMostAtOnce = 5;
 
+/// A given step that divides the run to rounding keeps its digits, which runs of other lengths share.
 StepSettings with_longest_step(StepSettings settings, const MarchSettings& march) {
-  settings.step = (march.duration - march.start) / static_cast<double>(march.longest_steps);
+  const double span = march.duration - march.start, count = static_cast<double>(march.longest_steps);
+  const double rounding = 4 * std::numeric_limits<double>::epsilon();
+  const bool is_divided = std::abs(count * march.given_step - span) <= rounding * span;
+  settings.step = is_divided ? march.given_step : span / count;
   return settings;
 }
 

@@ -16,6 +16,7 @@ namespace buckens::stepping {
 struct MarchSettings {
   double duration = 0;                      ///< instant of the end [s]
   double start = 0;                         ///< instant of the first step's beginning [s]
+  double given_step = 0;                    ///< taken as it is if longest_steps of it fill the run [s]
   long longest_steps = 1;                   ///< number of longest steps from start to end
   std::optional<ErrorTolerance> tolerance;  ///< controls the step; none: the longest throughout
 };
@@ -51,7 +52,7 @@ class TimeMarch {
 
   using StepQuestion = std::function<bool(const model::State& before, const model::State& after)>;
 
-  /// @param settings `step` is replaced by (duration − start) / longest_steps
+  /// @param settings `step` is replaced by given_step or (duration − start) / longest_steps
   TimeMarch(const model::Model& model, StepSettings settings, std::vector<int> rows_in_use,
             const MarchSettings& march);
 
