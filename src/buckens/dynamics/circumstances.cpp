@@ -151,10 +151,12 @@ JointWrenches wrenches_of(const model::Model& model, const model::Joint& joint, 
 loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t coordinate,
                                           const model::RowMemory* memory,
                                           const spatial::MarkerMotion& first,
-                                          const spatial::MarkerMotion& second) {
+                                          const spatial::MarkerMotion& second,
+                                          joints::CountedValue* counted_now) {
   const joints::CountedValue* const at = before_of(memory, coordinate);
   const joints::CoordinateLook look = model.coordinates[coordinate].law.look(first, second, at);
   const joints::CountedValue now = counted(model, coordinate, memory, look.fraction);
+  if (counted_now != nullptr) *counted_now = now;
   loads::CoordinateMotion out;
   out.J = look.J;
   out.rate = look.rate;
@@ -188,13 +190,16 @@ loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
 
 loads::Sight sight_at_joint(const model::Model& model, std::size_t load, double t,
                             const Circumstances& around, const spatial::MarkerMotion& first,
-                            const spatial::MarkerMotion& second, const spatial::Wrench& reaction) {
-  const model::Load& own = model.loads[load];
-  loads::Sight sight{t, first, second, {}, reaction, nullptr, {}};
-  if (own.coordinate >= 0) {
-    sight.coordinate = coordinate_motion(model, static_cast<std::size_t>(own.coordinate),
-                                         around.memory, first, second);
-  }
+                            const spatial::MarkerMotion& second, const spatial::Wrench& reaction,
+                            joints::CountedValue* now) {
+  const int coordinate = model.loads[load].coordinate;
+  // Formed in its place: a law at a joint is evaluated in every iteration of a step.
+  loads::Sight sight{t, first, second,
+                     coordinate >= 0
+                         ? coordinate_motion(model, static_cast<std::size_t>(coordinate),
+                                             around.memory, first, second, now)
+                         : loads::CoordinateMotion{},
+                     reaction};
   tell_rest(model, load, around, sight);
   return sight;
 }

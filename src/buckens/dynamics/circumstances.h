@@ -63,12 +63,13 @@ joints::CountedValue counted_coordinate(const model::Model& model, std::size_t c
                                         const spatial::MarkerMotion& second);
 
 /// Motion of a joint coordinate.
-/// @param first,second motions of its markers
+/// @param first,second motions of its markers, @param now null, or its value with its turns
 /// @throws NumericalError beyond 3 rad where no memory counts the turns
 loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t coordinate,
                                           const model::RowMemory* memory,
                                           const spatial::MarkerMotion& first,
-                                          const spatial::MarkerMotion& second);
+                                          const spatial::MarkerMotion& second,
+                                          joints::CountedValue* now = nullptr);
 
 /// What a joint does to its two markers, a coupler to those of one of its coordinates.
 /// @param first,second motions of these markers, @param coupled which coordinate of a coupler
@@ -89,9 +90,11 @@ loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
                       const spatial::MarkerMotion& second, const Travel* travel = nullptr);
 
 /// The same for a law on a joint whose reaction on the second marker is known.
+/// @param now null, or the value of its coordinate, if it has one
 loads::Sight sight_at_joint(const model::Model& model, std::size_t load, double t,
                             const Circumstances& around, const spatial::MarkerMotion& first,
-                            const spatial::MarkerMotion& second, const spatial::Wrench& reaction);
+                            const spatial::MarkerMotion& second, const spatial::Wrench& reaction,
+                            joints::CountedValue* now = nullptr);
 
 /// The effect of one load: by its law, or by the values given for it.
 /// @param load index into Model::loads, @param travel of a law on a slider's coordinate

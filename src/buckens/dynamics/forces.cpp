@@ -282,18 +282,18 @@ void SoftRows::clear() {
 }
 
 void append_rows(const SoftRows& from, SoftRows& to) {
-  const auto append = [](const auto& some, auto& out) {
-    out.insert(out.end(), some.begin(), some.end());
-  };
   const int first = static_cast<int>(to.rows.size());
   for (const int mixed : from.first_of_mix) to.first_of_mix.push_back(first + mixed);
-  append(from.mixes, to.mixes);
-  append(from.rows, to.rows);
-  append(from.stiffness, to.stiffness);
-  append(from.damping, to.damping);
-  append(from.rigid, to.rigid);
-  append(from.is_closed, to.is_closed);
-  append(from.regimes, to.regimes);
+  for (const loads::RowMix& mix : from.mixes) to.mixes.push_back(mix);
+  // One by one: nearly all laws have a single row.
+  for (std::size_t k = 0; k < from.rows.size(); ++k) {
+    to.rows.push_back(from.rows[k]);
+    to.stiffness.push_back(from.stiffness[k]);
+    to.damping.push_back(from.damping[k]);
+    to.rigid.push_back(from.rigid[k]);
+    to.is_closed.push_back(from.is_closed[k]);
+  }
+  for (const int regime : from.regimes) to.regimes.push_back(regime);
 }
 
 void give_nothing(std::vector<loads::SoftRow>& rows) {

@@ -57,6 +57,7 @@ JointSet::JointSet(const model::Model& model)
     }
     end.z = place.p;
     end.R = place.R();
+    end.is_turned = end.R != Matrix3d::Identity();
     return end;
   };
   joints_.reserve(model.joints.size());
@@ -280,6 +281,7 @@ void JointSet::evaluate(const std::vector<BodyMotion>& motions, double t,
   for (linalg::Vector* values : {&out.g, &out.g_dot, &out.g_t}) values->resize(num_rows_);
   if (with != nullptr && with->slopes != nullptr) with->slopes->clear();
   if (with != nullptr && with->soft != nullptr) with->soft->resize(laws_.size());
+  if (with != nullptr && with->ends != nullptr) with->ends->forget(model_);
   std::array<Wrench, kMostRows> units;
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const Joint& joint = joints_[j];

@@ -7,6 +7,8 @@
 #include "buckens/dynamics/circumstances.h"
 #include "buckens/dynamics/constraints.h"
 #include "buckens/dynamics/forces.h"
+#include "buckens/dynamics/law_ends.h"
+#include "buckens/loads/coordinate_law.h"
 
 namespace buckens::dynamics {
 
@@ -43,6 +45,8 @@ class JointSet {
     std::vector<ReactionSlope>* slopes = nullptr;
     /// Not null: their soft rows, one entry per law, see number_of().
     std::vector<SoftRows>* soft = nullptr;
+    /// Not null: what they remember if the step ends here.
+    LawEnds* ends = nullptr;
   };
 
   /// Residuals of all rows. With multipliers, the forces Gᵀλ are added: the rows of a joint act on
@@ -80,6 +84,7 @@ class JointSet {
     int translation_row = -1, rotation_row = -1;
     Eigen::Vector3d z;
     Eigen::Matrix3d R;
+    bool is_turned = false;  // R is not the identity
   };
   enum class Kind { point, direction, other };
   struct Row {
@@ -100,6 +105,8 @@ class JointSet {
     int regime;                              // its place in Forces::regimes, −1: none
     int soft;                                // its first soft row
     const loads::ReactionFollower* follows;  // null: not the reaction
+    const loads::CoordinateLaw* along;       // null: another kind
+    bool has_state;                          // one, of a law along a coordinate
   };
   struct Joint {
     End first, second;
@@ -117,7 +124,9 @@ class JointSet {
     Eigen::Vector3d z;             // in the deformed body, body axes
     Eigen::Vector3d p, w, v;
 
-    spatial::MarkerMotion marker(const End& end) const { return {p, axes * end.R, w, v}; }
+    spatial::MarkerMotion marker(const End& end) const {
+      return {p, end.is_turned ? Eigen::Matrix3d(axes * end.R) : axes, w, v};
+    }
   };
 
   static Motion motion_of(const End& end, const std::vector<BodyMotion>& motions);
@@ -134,15 +143,15 @@ class JointSet {
                               JointResiduals& out, spatial::Wrench* units) const;
   /// Both ends of a joint and its markers.
   struct Look {
-    Motion F, M;
+    const Motion &F, &M;
     spatial::MarkerMotion first, second;
   };
-  struct LawView;
-  LawView view(std::size_t load, const std::vector<BodyMotion>& motions, double t,
-               const Circumstances& around, spatial::Wrench* units) const;
   /// Adds what the laws of a joint do.
   void act(const Joint& joint, const Look& look, double t, const Laws& with,
            const spatial::Wrench* units, JointWrenches& wrenches, Forces& forces) const;
+  /// Adds what one of them does. @return its regime
+  int add_response(const Law& law, const loads::Sight& sight, LawEnds* ends,
+                   JointWrenches& wrenches, Forces& forces) const;
   /// Appends the soft rows of a law. @return its regime
   int append_tangent(const Joint& joint, const Law& law, const Look& look,
                      const loads::Sight& sight, bool is_off, SoftRows& out) const;

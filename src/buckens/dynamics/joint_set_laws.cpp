@@ -10,6 +10,18 @@ namespace buckens::dynamics {
 
 using spatial::Wrench;
 
+namespace {
+
+/// Adds what a force along a joint coordinate does to both markers.
+void add_along(const spatial::PairRow& J, double force, JointWrenches& out) {
+  out.on_first.torque += force * J.segment<3>(0).transpose();
+  out.on_first.force += force * J.segment<3>(3).transpose();
+  out.on_second.torque += force * J.segment<3>(6).transpose();
+  out.on_second.force += force * J.segment<3>(9).transpose();
+}
+
+}  // namespace
+
 void JointSet::take_laws() {
   is_law_.assign(model_.loads.size(), 0);
   std::vector<std::pair<std::size_t, Law>> found;  // with their joints
@@ -30,7 +42,9 @@ void JointSet::take_laws() {
     is_law_[k] = 1;
     std::fill(is_soft_row_.begin() + first_soft, is_soft_row_.end(), 1);
     const auto* follows = dynamic_cast<const loads::ReactionFollower*>(load.element.get());
-    found.push_back({j, {k, regime, first_soft, follows}});
+    const auto* along = dynamic_cast<const loads::CoordinateLaw*>(load.element.get());
+    const bool has_state = along != nullptr && along->num_states() > 0;
+    found.push_back({j, {k, regime, first_soft, follows, along, has_state}});
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -45,50 +59,35 @@ void JointSet::take_laws() {
   }
 }
 
-/// A law, its joint, and what the law sees apart from the rest of the mechanism.
-struct JointSet::LawView {
-  const Law& law;
-  const Joint& joint;
-  Look look;
-  Wrench reaction;
-  bool is_released;
-};
-
-/// @param units as of evaluate_rows()
-JointSet::LawView JointSet::view(std::size_t load, const std::vector<BodyMotion>& motions, double t,
-                                 const Circumstances& around, Wrench* units) const {
-  const auto j = static_cast<std::size_t>(model_.loads[load].joint);
-  const Joint& joint = joints_[j];
-  const Motion F = motion_of(joint.first, motions), M = motion_of(joint.second, motions);
-  LawView out{laws_[law_of_load_[load]],
-              joint,
-              {F, M, F.marker(joint.first), M.marker(joint.second)},
-              {},
-              around.memory != nullptr && around.memory->is_released(j)};
-  const bool has_reaction = around.lambda != nullptr && around.lambda->size() > 0;
-  if (out.is_released || (!has_reaction && units == nullptr)) return out;
-  thread_local JointResiduals unused;  // kept, so that steps allocate nothing
-  for (linalg::Vector* values : {&unused.g, &unused.g_dot, &unused.g_t}) values->resize(num_rows_);
-  const double* const states = around.memory != nullptr && around.memory->rows.size() > 0
-                                   ? around.memory->rows.data()
-                                   : nullptr;
-  out.reaction =
-      evaluate_rows(j, F, M, t, states, has_reaction ? around.lambda : nullptr, unused, units)
-          .on_second;
-  return out;
-}
-
 void JointSet::append_soft_rows(std::size_t load, const std::vector<BodyMotion>& motions, double t,
                                 const Circumstances& around, SoftRows& out,
                                 std::vector<ReactionSlope>* slopes) const {
+  const auto j = static_cast<std::size_t>(model_.loads[load].joint);
+  const Joint& joint = joints_[j];
+  const Law& law = laws_[law_of_load_[load]];
+  const Motion F = motion_of(joint.first, motions), M = motion_of(joint.second, motions);
+  const bool is_released = around.memory != nullptr && around.memory->is_released(j);
+  const bool has_reaction = around.lambda != nullptr && around.lambda->size() > 0;
   std::array<Wrench, kMostRows> units;
-  const LawView seen = view(load, motions, t, around, slopes != nullptr ? units.data() : nullptr);
+  Wrench reaction;
+  if (!is_released && (has_reaction || slopes != nullptr)) {
+    thread_local JointResiduals unused;  // kept, so that steps allocate nothing
+    for (linalg::Vector* values : {&unused.g, &unused.g_dot, &unused.g_t})
+      values->resize(num_rows_);
+    const double* const states = around.memory != nullptr && around.memory->rows.size() > 0
+                                     ? around.memory->rows.data()
+                                     : nullptr;
+    reaction = evaluate_rows(j, F, M, t, states, has_reaction ? around.lambda : nullptr, unused,
+                             slopes != nullptr ? units.data() : nullptr)
+                   .on_second;
+  }
+  const Look look{F, M, F.marker(joint.first), M.marker(joint.second)};
   const loads::Sight sight =
-      sight_at_joint(model_, load, t, around, seen.look.first, seen.look.second, seen.reaction);
+      sight_at_joint(model_, load, t, around, look.first, look.second, reaction);
   const bool is_off = around.memory != nullptr && around.memory->is_off(load);
-  const int regime = append_tangent(seen.joint, seen.law, seen.look, sight, is_off, out);
-  if (slopes != nullptr && seen.law.follows != nullptr && !is_off && !seen.is_released) {
-    append_slopes(seen.joint, seen.law, sight, regime, units.data(), *slopes);
+  const int regime = append_tangent(joint, law, look, sight, is_off, out);
+  if (slopes != nullptr && law.follows != nullptr && !is_off && !is_released) {
+    append_slopes(joint, law, sight, regime, units.data(), *slopes);
   }
 }
 
@@ -137,27 +136,47 @@ void JointSet::act(const Joint& joint, const Look& look, double t, const Laws& w
     const Law& law = laws_[n];
     const bool is_off = with.around.memory != nullptr && with.around.memory->is_off(law.load);
     if (is_off && with.soft == nullptr) continue;
-    const model::Load& load = model_.loads[law.load];
-    const loads::Sight sight =
-        sight_at_joint(model_, law.load, t, with.around, look.first, look.second, reaction);
+    joints::CountedValue coordinate;
+    const loads::Sight sight = sight_at_joint(model_, law.load, t, with.around, look.first,
+                                              look.second, reaction, &coordinate);
     if (with.soft != nullptr) {
       SoftRows& soft = (*with.soft)[n];
       soft.clear();
       append_tangent(joint, law, look, sight, is_off, soft);
       if (is_off) continue;
     }
+    const int number = model_.loads[law.load].coordinate;
+    if (with.ends != nullptr && number >= 0) {
+      with.ends->coordinates[static_cast<std::size_t>(number)] = {true, coordinate};
+    }
+    const int regime = add_response(law, sight, with.ends, wrenches, forces);
+    if (units != nullptr && law.follows != nullptr) {
+      append_slopes(joint, law, sight, regime, units, *with.slopes);
+    }
+  }
+}
+
+int JointSet::add_response(const Law& law, const loads::Sight& sight, LawEnds* ends,
+                           JointWrenches& wrenches, Forces& forces) const {
+  const model::Load& load = model_.loads[law.load];
+  const auto count = [&](const auto& response) {
+    forces.stored_energy += response.stored_energy;
+    forces.active_power += response.active_power;
+    forces.dissipation += response.dissipation;
+    if (law.regime >= 0) forces.regimes[static_cast<std::size_t>(law.regime)] = response.regime;
+    return response.regime;
+  };
+  if (law.along == nullptr) {
     const loads::Action action = citing(load, [&] { return load.element->respond(sight); });
     wrenches.on_first += action.on_first;
     wrenches.on_second += action.on_second;
-    forces.stored_energy += action.stored_energy;
-    forces.active_power += action.active_power;
-    forces.dissipation += action.dissipation;
-    if (law.regime >= 0) forces.regimes[static_cast<std::size_t>(law.regime)] = action.regime;
     if (load.rigid_row >= 0) forces.rigid[static_cast<std::size_t>(load.rigid_row)] = action.row;
-    if (units != nullptr && law.follows != nullptr) {
-      append_slopes(joint, law, sight, action.regime, units, *with.slopes);
-    }
+    return count(action);
   }
+  const loads::CoordinateResponse response = citing(load, [&] { return law.along->answer(sight); });
+  add_along(sight.coordinate.J, response.force, wrenches);
+  if (ends != nullptr && law.has_state) ends->laws[law.load] = {true, response.strain};
+  return count(response);
 }
 
 }  // namespace buckens::dynamics

@@ -121,6 +121,17 @@ void MultiplierCondensation::set_row(int row, const SystemRow& test, const Syste
   test_->set(row, test);
 }
 
+void MultiplierCondensation::set_acting_row(int row, const SystemRow& force) {
+  if (!test_) test_ = force_;
+  force_.set(row, force);
+  test_->clear(row);
+}
+
+void MultiplierCondensation::clear_row(int row) {
+  force_.clear(row);
+  if (test_) test_->clear(row);
+}
+
 void MultiplierCondensation::add_body(std::size_t b, const BodyCompliance& compliance,
                                       linalg::BlockLu& into) const {
   const auto& list = blocks_on_body_[b];

@@ -58,6 +58,10 @@ class MultiplierCondensation {
   void set_row(int row, const SystemRow& values);
   /// Sets a row. @param test direction to close (left), @param force direction of the multiplier
   void set_row(int row, const SystemRow& test, const SystemRow& force);
+  /// Sets a row that closes nothing, but along which a force acts.
+  void set_acting_row(int row, const SystemRow& force);
+  /// Sets a row to nothing.
+  void clear_row(int row);
 
   /// Assembles and factorises S of the rows set.
   /// @param soft_compliance one entry per trailing soft row, 1/k [m/N, rad/(N m)]

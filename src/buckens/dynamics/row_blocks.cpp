@@ -22,10 +22,9 @@ bool touch_the_same(const SystemRow& row, std::span<const RowBlock::Side> sides)
 }
 
 bool acts_on_nothing(const SystemRow& row) {
-  for (const BodyRow* part : row.parts()) {
-    if (part->body != model::kGround) return false;
-  }
-  return true;
+  return row.first.body == model::kGround && row.second.body == model::kGround &&
+         std::all_of(row.more.begin(), row.more.end(),
+                     [](const BodyRow& part) { return part.body == model::kGround; });
 }
 
 /// What rows of one block have in common.
@@ -114,6 +113,17 @@ void RowBlocks::set(int row, const SystemRow& values) {
     std::copy_n(part.frame.data(), 6, &values_[side.frame + offset]);
     if (side.follows_mesh())
       std::copy_n(part.interface.data(), 6, &values_[side.interface + offset]);
+  }
+}
+
+void RowBlocks::clear(int row) {
+  Place& place = places_[static_cast<std::size_t>(row)];
+  place.is_empty = true;
+  const auto offset = static_cast<std::size_t>(6 * place.number);
+  for (const RowBlock::Side& side : sides(blocks_[static_cast<std::size_t>(place.block)])) {
+    if (side.body == model::kGround) continue;
+    std::fill_n(&values_[side.frame + offset], 6, 0.0);
+    if (side.follows_mesh()) std::fill_n(&values_[side.interface + offset], 6, 0.0);
   }
 }
 

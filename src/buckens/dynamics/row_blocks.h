@@ -67,6 +67,8 @@ class RowBlocks {
   /// Stores the numbers of a row. Its bodies are those of the pattern, and its marker rows unless
   /// it travels; an empty row is zero.
   void set(int row, const SystemRow& values);
+  /// Sets a row to nothing.
+  void clear(int row);
   /// Whether the row was set to nothing.
   bool is_empty(int row) const { return places_[static_cast<std::size_t>(row)].is_empty; }
 

@@ -149,7 +149,7 @@ model::RowMemory start_memory(const model::Model& model, const std::vector<BodyM
 }
 
 void advance_memory(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
-                    const Circumstances& around, model::RowMemory& out) {
+                    const Circumstances& around, model::RowMemory& out, const LawEnds* known) {
   const model::RowMemory& before = *around.memory;
   out.off = before.off;
   out.released = before.released;
@@ -157,6 +157,11 @@ void advance_memory(const model::Model& model, const std::vector<BodyMotion>& mo
   seen.resize(before.coordinates.size());
   out.coordinates.resize(before.coordinates.size());
   for (std::size_t k = 0; k < before.coordinates.size(); ++k) {
+    seen[k].are_known = false;
+    if (known != nullptr && known->knows_coordinate(k)) {
+      out.coordinates[k] = known->coordinates[k].value;
+      continue;
+    }
     const model::Coordinate& coordinate = model.coordinates[k];
     out.coordinates[k] = coordinate.law.follow(
         before.coordinates[k],
@@ -170,6 +175,10 @@ void advance_memory(const model::Model& model, const std::vector<BodyMotion>& mo
   EndsInTurn in_turn(model, motions, &before);
   for (std::size_t k = 0; k < model.loads.size() && before.laws.size() > 0; ++k) {
     const model::Load& load = model.loads[k];
+    if (known != nullptr && known->knows_law(k)) {
+      out.laws[load.first_state] = known->laws[k].state;
+      continue;
+    }
     if (load.element->num_states() == 0) continue;
     if (before.is_off(k)) {
       const int count = load.element->num_states();

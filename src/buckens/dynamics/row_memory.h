@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "buckens/dynamics/circumstances.h"
+#include "buckens/dynamics/law_ends.h"
 #include "buckens/dynamics/system_kinematics.h"
 
 namespace buckens::dynamics {
@@ -26,7 +27,9 @@ model::RowMemory memory_at_rest(const model::Model& model, const std::vector<Bod
 /// What they remember at the end of a step.
 /// @param motions at its end, @param around with the memory at its start
 /// @param out neither of the two; its buffers are reused
+/// @param ends null, or what was found where laws were evaluated at these motions
 void advance_memory(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
-                    const Circumstances& around, model::RowMemory& out);
+                    const Circumstances& around, model::RowMemory& out,
+                    const LawEnds* ends = nullptr);
 
 }  // namespace buckens::dynamics

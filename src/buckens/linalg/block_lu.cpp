@@ -228,12 +228,13 @@ void BlockLu::for_coupled(F&& f) const {
 }
 
 void BlockLu::take_values(const BlockLu& from) {
-  clear();
-  set_alone(from.alone_);
-  if (alone_.empty()) {
+  if (!from.has_alone_) {
+    set_alone(from.alone_);
     values_ = from.values_;
     return;
   }
+  clear();
+  set_alone(from.alone_);
   const auto copy = [&](std::size_t first, std::size_t count) {
     std::copy_n(from.values_.begin() + static_cast<std::ptrdiff_t>(first), count,
                 values_.begin() + static_cast<std::ptrdiff_t>(first));
@@ -248,14 +249,13 @@ void BlockLu::clear() {
   const auto zero = [&](std::size_t first, std::size_t count) {
     std::fill_n(values_.begin() + static_cast<std::ptrdiff_t>(first), count, 0.0);
   };
-  if (alone_.empty()) {
+  if (!has_alone_) {
     zero(0, values_.size());
   } else {
     for_coupled([&](const Place& place) { zero(place.first, size_of(place)); });
   }
   for (const Pivot& pivot : pivots_) {
-    if (!alone_.empty())
-      zero(pivot.diagonal, static_cast<std::size_t>(pivot.stored * pivot.stored));
+    if (has_alone_) zero(pivot.diagonal, static_cast<std::size_t>(pivot.stored * pivot.stored));
     for (int k = sizes_[static_cast<std::size_t>(pivot.block)]; k < pivot.stored; ++k) {
       values_[pivot.diagonal + static_cast<std::size_t>(k * pivot.stored + k)] = 1.0;
     }
@@ -265,6 +265,7 @@ void BlockLu::clear() {
 void BlockLu::set_alone(const std::vector<char>& blocks) {
   if (blocks == alone_) return;
   alone_ = blocks;
+  has_alone_ = std::any_of(blocks.begin(), blocks.end(), [](char alone) { return alone != 0; });
   const auto is_alone = [&](int block) {
     return !blocks.empty() && blocks[static_cast<std::size_t>(block)] != 0;
   };

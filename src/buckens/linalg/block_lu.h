@@ -116,6 +116,7 @@ class BlockLu {
   std::vector<Neighbour> neighbours_;
   std::vector<double> values_;     // zero where a block is alone, but for its diagonal block
   std::vector<char> alone_;        // as set_alone() has it
+  bool has_alone_ = false;         // any of them
   std::vector<double> inverse_;    // of pivots
   mutable std::vector<double> x_;  // of a solve, as stored
   double pivot_ratio_ = 1;

@@ -61,10 +61,22 @@ Action CoordinateLaw::evaluate(double /*t*/, const spatial::MarkerMotion& /*firs
 }
 
 Action CoordinateLaw::respond(const Sight& sight) const {
+  const CoordinateResponse response = answer(sight);
+  Action out = along_coordinate(sight.coordinate, response.force);
+  out.stored_energy = response.stored_energy;
+  out.active_power = response.active_power;
+  out.dissipation = response.dissipation;
+  out.regime = response.regime;
+  return out;
+}
+
+CoordinateResponse CoordinateLaw::answer(const Sight& sight) const {
   const ProjectedForce law = force(sight);
   const double rate = sight.coordinate.rate;
   const Projected f = project(law, rate);
-  Action out = along_coordinate(sight.coordinate, f.whole);
+  CoordinateResponse out;
+  out.force = f.whole;
+  out.strain = f.strain;
   out.regime = regime_of(law, f);
   if (law.is_source) {
     out.active_power = f.whole * rate;

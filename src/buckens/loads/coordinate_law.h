@@ -39,6 +39,15 @@ struct UnlimitedForce {
   double stiffness = 0, damping = 0;  ///< of all of it
 };
 
+/// What a law of a joint coordinate does, without what its force does to the markers.
+struct CoordinateResponse {
+  double force = 0;  ///< along the coordinate [N] or [N m]
+  double stored_energy = 0, active_power = 0, dissipation = 0;  ///< as in Action
+  /// After rest has followed: the state of a law that yields, if the step ends here.
+  double strain = 0;
+  int regime = 0;  ///< as in Action
+};
+
 /// What a force along a joint coordinate does to both markers.
 Action along_coordinate(const CoordinateMotion& coordinate, double force);
 
@@ -55,6 +64,8 @@ class CoordinateLaw : public ForceElement {
   int num_states() const final { return is_yielding() ? 1 : 0; }
   void find_states(const Sight& sight, double* states) const final;
   UnlimitedForce unlimited(const Sight& sight) const;
+  /// What respond() says, at less cost.
+  CoordinateResponse answer(const Sight& sight) const;
 
  protected:
   virtual ProjectedForce force(const Sight& sight) const = 0;

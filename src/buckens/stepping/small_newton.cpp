@@ -125,7 +125,7 @@ void SmallNewton::evaluate_motions(std::vector<BodyStep>& bodies, double t, cons
   };
   act();
   if (rigid_.let_go(forces_.rigid)) act();
-  const dynamics::JointSet::Laws with{around_, slopes, soft};
+  const dynamics::JointSet::Laws with{around_, slopes, soft, same ? &law_ends_ : nullptr};
   if (same) {
     joints_.evaluate(end_, t + scheme_.h, around_.memory, residuals_, &lambda, &forces_, &with);
   } else {

@@ -72,6 +72,8 @@ class SmallNewton {
   const dynamics::Forces& forces() const { return forces_; }
   const std::vector<dynamics::BodyMotion>& motions_at_end() const { return end_; }
   const std::vector<int>& rows_in_use() const { return rows_in_use_; }
+  /// What laws on joints remember if the step ends here; null: not known.
+  const dynamics::LawEnds* law_ends() const { return scheme_.weight == 1.0 ? &law_ends_ : nullptr; }
   /// How often the rows in use were changed because pivots dropped or a row opened.
   int num_selections() const { return num_selections_; }
 
@@ -222,6 +224,7 @@ class SmallNewton {
   dynamics::JointResiduals residuals_;        // at the end of the step
   dynamics::JointResiduals other_residuals_;  // elsewhere
   dynamics::Forces forces_;
+  dynamics::LawEnds law_ends_;  // at the last evaluation
   /// Scratch: rows of couplers own memory.
   std::array<dynamics::SystemRow, dynamics::JointSet::kMostRows> rows_of_joint_, acting_of_joint_;
   std::vector<model::NearPair> near_;  // that the condensation was made for
@@ -232,6 +235,7 @@ class SmallNewton {
   std::vector<double> soft_compliance_;
   std::vector<double> soft_stiffness_share_;  // k θ / k_eff
   bool has_soft_springs_ = false;             // any of them is not zero
+  std::vector<char> only_follows_;  // of soft rows: set as rows of forces that follow multipliers
   dynamics::ReactionSlopes reaction_slopes_;
   std::vector<dynamics::ReactionSlope> slopes_;            // as the soft rows are
   std::vector<dynamics::ReactionSlope> slopes_of_joints_;  // after the first iteration

@@ -43,6 +43,7 @@ void SmallNewton::set_soft_rows(const std::vector<double>& stiffness,
                                 const std::vector<double>& damping) {
   soft_compliance_.clear();
   soft_stiffness_share_.clear();
+  only_follows_.assign(soft_.rows.size(), 0);
   for (std::size_t k = 0; k < soft_.rows.size(); ++k) {
     const int row = static_cast<int>(rows_in_use_.size() + k);
     if (soft_.is_closed[k]) {
@@ -58,9 +59,9 @@ void SmallNewton::set_soft_rows(const std::vector<double>& stiffness,
       condensation_->set_row(row, soft_.rows[k]);
     } else if (give_to_corrections_[k]) {
       // Its spring still shares in corrections, which act along it.
-      condensation_->set_row(row, dynamics::SystemRow{}, soft_.rows[k]);
+      condensation_->set_acting_row(row, soft_.rows[k]);
     } else {
-      condensation_->set_row(row, dynamics::SystemRow{});
+      condensation_->clear_row(row);
     }
     soft_compliance_.push_back(k_eff > 0.0 ? 1.0 / (scheme_.force * k_eff) : 1.0);
     soft_stiffness_share_.push_back(k_eff > 0.0 ? elastic / k_eff : 0.0);
@@ -79,7 +80,6 @@ void SmallNewton::set_slopes() {
   const int in_use = static_cast<int>(rows_in_use_.size());
   slopes_in_use_.clear();
   add_slopes_of_mixes();
-  int sliding = -1;
   for (const dynamics::ReactionSlope& slope : slopes_) {
     const auto soft = static_cast<std::size_t>(slope.soft);
     const int place = place_of(slope);
@@ -88,9 +88,9 @@ void SmallNewton::set_slopes() {
     // Where a force only follows multipliers, bodies move by it all the same.
     const bool gives_way =
         stiffness_in_step(scheme_, soft_.stiffness[soft], soft_.damping[soft]) != 0.0;
-    if (gives_way || slope.soft == sliding) continue;
-    sliding = slope.soft;
-    condensation_->set_row(in_use + slope.soft, dynamics::SystemRow{}, soft_.rows[soft]);
+    if (gives_way || only_follows_[soft]) continue;
+    only_follows_[soft] = 1;
+    condensation_->set_acting_row(in_use + slope.soft, soft_.rows[soft]);
   }
   condensation_->set_slopes(slopes_in_use_);
 }

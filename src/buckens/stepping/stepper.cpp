@@ -280,7 +280,7 @@ void Stepper::form_next_state(const model::State& state) {
   form_next_instant(state);
   next.lambda = lambda_;
   dynamics::advance_memory(model_, newton_->motions_at_end(), next.t, newton_->around(),
-                           next.memory);
+                           next.memory, newton_->law_ends());
   for_bodies([&](std::size_t b) {
     const model::BodyState& old = state.bodies[b];
     model::BodyState& s = next.bodies[b];

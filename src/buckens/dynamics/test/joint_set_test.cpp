@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/dynamics/row_blocks.h"
+#include "buckens/dynamics/row_memory.h"
 #include "buckens/dynamics/test/example_models.h"
 #include "buckens/fem/mesh/box_mesh.h"
 #include "buckens/joints/swing_twist.h"
@@ -309,6 +310,45 @@ TEST(JointSet, LawsOnJointsGiveWayAsAlone) {
   }
 }
 
+TEST(JointSet, TellsWhatLawsRememberIfTheStepEndsThere) {
+  const model::Model model = with_laws_on_joints();
+  const std::vector<BodyMotion> motions = any_motions(model);
+  Vector lambda(model.num_constraint_rows());
+  for (int k = 0; k < static_cast<int>(lambda.size()); ++k) lambda[k] = 5.0 * any_number(7 * k);
+  model::RowMemory memory = model::placed_state(model).memory;
+  for (Eigen::Index k = 0; k < memory.laws.size(); ++k) memory.laws[k] += 0.001;
+  memory.coordinates[0].turns = 2;
+  const JointSet joints(model);
+  const Circumstances around{nullptr, &memory, &lambda, nullptr, nullptr};
+  for (const bool is_one_off : {false, true}) {
+    memory.off.assign(model.loads.size(), 0);
+    memory.off[0] = is_one_off ? 1 : 0;
+    LawEnds ends;
+    JointResiduals residuals;
+    Forces forces;
+    evaluate_forces(model, motions, kInstant, around, forces, 1.0, &joints.laws());
+    const JointSet::Laws with{around, nullptr, nullptr, &ends};
+    joints.evaluate(motions, kInstant, &memory, residuals, &lambda, &forces, &with);
+    // Rigid friction, bristles and balls have more states than one.
+    for (std::size_t k = 0; k < model.loads.size(); ++k) {
+      EXPECT_EQ(ends.knows_law(k), k == 0 && !is_one_off) << k;
+    }
+    model::RowMemory expected, found;
+    advance_memory(model, motions, kInstant, around, expected);
+    advance_memory(model, motions, kInstant, around, found, &ends);
+    for (std::size_t k = 0; k < model.coordinates.size(); ++k) {
+      EXPECT_EQ(found.coordinates[k].turns, expected.coordinates[k].turns) << k;
+      EXPECT_NEAR(found.coordinates[k].fraction, expected.coordinates[k].fraction, kOrder) << k;
+    }
+    ASSERT_EQ(found.laws.size(), expected.laws.size());
+    EXPECT_LE((found.laws - expected.laws).cwiseAbs().maxCoeff(), kOrder);
+    if (is_one_off) continue;
+    ends.laws[0].state = 0.125;  // it is not evaluated again
+    advance_memory(model, motions, kInstant, around, found, &ends);
+    EXPECT_EQ(found.laws[model.loads[0].first_state], 0.125);
+  }
+}
+
 TEST(RowBlocks, RowsBetweenTheSameMarkersAreOneBlock) {
   const model::Model model = all_joints();
   const std::vector<BodyMotion> motions = any_motions(model);
@@ -374,6 +414,17 @@ TEST(RowBlocks, GatherAndChangeAsTheRowsThemselvesDo) {
     return Displacement{&u[k], &motions[k].y_dot};
   });
   EXPECT_LE((changes - (constraints.g_dot - constraints.g_t)).cwiseAbs().maxCoeff(), kOrder);
+  // A row that is cleared does nothing, and others of its block are as before.
+  blocks.clear(1);
+  EXPECT_TRUE(blocks.is_empty(1));
+  EXPECT_FALSE(blocks.is_empty(0));
+  Vector cleared;
+  blocks.changes(cleared, [&](int b) {
+    const auto k = static_cast<std::size_t>(b);
+    return Displacement{&u[k], &motions[k].y_dot};
+  });
+  changes[1] = 0.0;
+  EXPECT_EQ(cleared, changes);
 }
 
 }  // namespace

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "buckens/model/model.h"
+
+namespace buckens::dynamics {
+
+/// What laws on joints and their coordinates remember if a step ends where they were evaluated, so
+/// that its end need not evaluate them again.
+struct LawEnds {
+  struct Coordinate {
+    bool is_known = false;
+    joints::CountedValue value;
+  };
+  struct Law {
+    bool is_known = false;
+    double state = 0;  ///< the only one that it has
+  };
+  std::vector<Coordinate> coordinates;  ///< one per Model::coordinates
+  std::vector<Law> laws;                ///< one per Model::loads
+
+  /// Knows nothing any more.
+  void forget(const model::Model& model) {
+    coordinates.assign(model.coordinates.size(), {});
+    laws.assign(model.loads.size(), {});
+  }
+  bool knows_coordinate(std::size_t k) const {
+    return k < coordinates.size() && coordinates[k].is_known;
+  }
+  bool knows_law(std::size_t load) const { return load < laws.size() && laws[load].is_known; }
+};
+
+}  // namespace buckens::dynamics
