@@ -23,8 +23,10 @@ struct LawEnds {
 
   /// Knows nothing any more.
   void forget(const model::Model& model) {
-    coordinates.assign(model.coordinates.size(), {});
-    laws.assign(model.loads.size(), {});
+    coordinates.resize(model.coordinates.size());
+    laws.resize(model.loads.size());
+    for (Coordinate& coordinate : coordinates) coordinate.is_known = false;
+    for (Law& law : laws) law.is_known = false;
   }
   bool knows_coordinate(std::size_t k) const {
     return k < coordinates.size() && coordinates[k].is_known;

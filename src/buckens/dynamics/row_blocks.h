@@ -93,7 +93,8 @@ class RowBlocks {
         if (side.body == model::kGround) continue;
         const Displacement moved = displacement(side.body);
         for (int k = 0; k < block.count; ++k) {
-          out[block.rows[static_cast<std::size_t>(k)]] += change(side, k, moved);
+          const int row = block.rows[static_cast<std::size_t>(k)];
+          if (!is_empty(row)) out[row] += change(side, k, moved);
         }
       }
     }
