@@ -156,7 +156,11 @@ loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t
   const joints::CountedValue* const at = before_of(memory, coordinate);
   const joints::CoordinateLook look = model.coordinates[coordinate].law.look(first, second, at);
   const joints::CountedValue now = counted(model, coordinate, memory, look.fraction);
-  if (counted_now != nullptr) *counted_now = now;
+  if (counted_now != nullptr) {
+    // One by one: a copy of the whole waits for what was written in parts.
+    counted_now->turns = now.turns;
+    counted_now->fraction = now.fraction;
+  }
   loads::CoordinateMotion out;
   out.J = look.J;
   out.rate = look.rate;

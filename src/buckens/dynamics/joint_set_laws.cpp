@@ -124,7 +124,10 @@ void JointSet::append_slopes(const Joint& joint, const Law& law, const loads::Si
       const double value =
           units[k].torque.dot(slopes[n].torque) + units[k].force.dot(slopes[n].force);
       if (value == 0.0) continue;
-      out.push_back({law.soft + static_cast<int>(n), joint.first_row + k, -1, value});
+      ReactionSlope& slope = out.emplace_back();
+      slope.soft = law.soft + static_cast<int>(n);
+      slope.row = joint.first_row + k;
+      slope.value = value;
     }
   }
 }
@@ -147,7 +150,11 @@ void JointSet::act(const Joint& joint, const Look& look, double t, const Laws& w
     }
     const int number = model_.loads[law.load].coordinate;
     if (with.ends != nullptr && number >= 0) {
-      with.ends->coordinates[static_cast<std::size_t>(number)] = {true, coordinate};
+      // Here and below written one by one: a copy of the whole waits for its parts.
+      LawEnds::Coordinate& end = with.ends->coordinates[static_cast<std::size_t>(number)];
+      end.is_known = true;
+      end.value.turns = coordinate.turns;
+      end.value.fraction = coordinate.fraction;
     }
     const int regime = add_response(law, sight, with.ends, wrenches, forces);
     if (units != nullptr && law.follows != nullptr) {

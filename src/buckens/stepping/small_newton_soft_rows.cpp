@@ -121,7 +121,11 @@ void SmallNewton::add_slope(int soft, int place, double value) {
   const int in_use = static_cast<int>(rows_in_use_.size());
   const int m = mix_of_row_[static_cast<std::size_t>(soft)];
   if (m < 0) {
-    slopes_in_use_.push_back({in_use + soft, place, value});
+    // Written one by one: every iteration with new slopes comes by here.
+    dynamics::MultiplierSlope& slope = slopes_in_use_.emplace_back();
+    slope.soft_row = in_use + soft;
+    slope.row = place;
+    slope.value = value;
     return;
   }
   // f = R f̂ + w λ as f = f̂ + W f + R⁻¹ w λ.
