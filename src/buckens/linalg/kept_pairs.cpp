@@ -47,7 +47,9 @@ class OwnPairs final : public KeptPairs {
     parts_.for_pieces(pool, [&](int part, Index first, Index size) {
       auto piece = r.segment(first, size);
       piece.noalias() -= block(loads_, pairs, first, size) * along.head(pairs);
-      sums_[static_cast<std::size_t>(part)].square += static_cast<double>(piece.squaredNorm());
+      // Squares of small loads underflow in single precision: they vanish, or cost a hundred times
+      // as much.
+      sums_[static_cast<std::size_t>(part)].square += piece.cast<double>().squaredNorm();
     });
     return std::sqrt(sum_of_squares());
   }

@@ -20,6 +20,8 @@ constexpr long kSleepPerJudged = 8;
 // Loads that are solved for together may have remainders in common. Where less than this share of
 // one is new, it becomes no pair: its rounding would count.
 constexpr double kLeastNew = 0.1;
+// Single precision ends at 1e-38: of smaller loads, digits that count (6e-8) may be lost.
+constexpr double kLeastSize = 1e-30;
 
 constexpr long kMostCounted = 1L << 60;
 
@@ -51,7 +53,7 @@ double RecycledSolves::norm(const VectorXf& load, TaskPool* pool) {
   std::fill(squares_.begin(), squares_.end(), 0.0);
   parts_.for_pieces(pool, [&](int part, Index first, Index size) {
     const auto piece = load.segment(first, size);
-    squares_[static_cast<std::size_t>(part)] += static_cast<double>(piece.squaredNorm());
+    squares_[static_cast<std::size_t>(part)] += piece.cast<double>().squaredNorm();
   });
   double square = 0;
   for (const double part : squares_) square += part;
@@ -121,7 +123,8 @@ void RecycledSolves::keep(Request& request, TaskPool* pool) {
     }
     size = norm(request.remainder, pool);
   }
-  if (!std::isfinite(size) || size <= least || static_cast<int>(made_.size()) == most_) return;
+  if (!std::isfinite(size) || size <= std::max(least, kLeastSize)) return;
+  if (static_cast<int>(made_.size()) == most_) return;
   const int pair = free_pair();
   scores_[index(pair)] = size;
   pairs_->put(pair, static_cast<float>(1.0 / size), request.remainder, request.answer, pool);

@@ -123,6 +123,24 @@ TEST(RecycledSolves, LeavesNoMoreThanTheLimitWithoutAnAnswer) {
   }
 }
 
+TEST(RecycledSolves, JudgesSmallLoadsLikeLargeOnes) {
+  // The squares of the entries are far below what single precision holds.
+  for (const double size : {1e-18, 1e-21, 1e-26}) {
+    Chain chain;
+    RecycledSolves kept(chain.inverse_diagonal(), 8);
+    answered(kept, chain, size * chain.load(0), 1e-6 * size);
+    ASSERT_EQ(kept.num_pairs(), 1) << size;
+    Request request;
+    Vector other = size * chain.load(1);
+    EXPECT_FALSE(kept.answer(other, 0.5 * size, request)) << size;
+    const Vector f = -3.0 * size * chain.load(0);
+    const Vector x = answered(kept, chain, f, 1e-5 * size);
+    EXPECT_EQ(chain.solves, 1) << size;
+    // As of loads of any size: answers are kept in single precision.
+    EXPECT_LT(chain.norm(chain.times(x) - f), 2e-6 * chain.norm(f)) << size;
+  }
+}
+
 TEST(RecycledSolves, DropsThePairLeastUsedLately) {
   Chain chain;
   RecycledSolves kept(chain.inverse_diagonal(), 3);
