@@ -68,14 +68,15 @@ class Pass {
   /// The share of the scalar mass matrix: Ms ⊗ E_ab for all pairs at once.
   void add(const NodalInertia& nodal, TaskPool* pool) {
     if (nodal.is_regular()) {
-      add_regular({nodal.matrix(), nullptr, nullptr}, pool);
+      add_regular({nodal.matrix(), nullptr, nullptr}, pool, false);
     } else {
       add_by_lookup(nodal.mass());
     }
   }
 
   /// The same where the variables are numbered by node.
-  void add_regular(const linalg::CommonTable& common, TaskPool* pool) {
+  /// @param clears the load of each piece before it is formed
+  void add_regular(const linalg::CommonTable& common, TaskPool* pool, bool clears) {
     const linalg::NodeMatrix& Ms = common.mass;
     const linalg::NodeKernels& kernels = linalg::node_kernels();
     const std::array<const double*, 3> vectors = {d_.data(), v_.data(), a_.data()};
@@ -84,6 +85,7 @@ class Pass {
     const linalg::RowParts rows(d_.size(), 3);
     std::array<linalg::NodeSums, linalg::RowParts::kMostParts> sums;
     common.for_pieces(rows, pool, [&](int part, Eigen::Index first, Eigen::Index size) {
+      if (clears) load_.segment(first, size).setZero();
       kernels.couple(Ms, static_cast<int>(first / 3), static_cast<int>(size / 3), vectors.data(),
                      weights.data(), loads_ ? load_.data() : nullptr,
                      sums[static_cast<std::size_t>(part)]);
@@ -198,7 +200,13 @@ DeformationWeights DeformationWeights::of_motion(const Vector3d& w, const Vector
 DeformedMoments evaluate_deformation(const fem::ShapeIntegrals& shape, const Vector& d,
                                      const Vector& d_dot, const Vector& d_ddot,
                                      const DeformationWeights& weights, Vector& load,
-                                     TaskPool* pool, const linalg::CommonTable* common) {
+                                     TaskPool* pool, const linalg::CommonTable* common,
+                                     bool overwrites) {
+  const bool clears = overwrites && !weights.are_zero();
+  const bool has_integrals = std::any_of(shape.W.begin(), shape.W.end(),
+                                         [](const SparseMatrix& W) { return W.nonZeros() > 0; });
+  const bool clears_pieces = clears && common != nullptr && !has_integrals;
+  if (clears && !clears_pieces) load.setZero();
   Pass pass(d, d_dot, d_ddot, weights, load);
   for (std::size_t k = 0; k < kPairs.size(); ++k) {
     const SparseMatrix& W = shape.W[k];
@@ -210,7 +218,7 @@ DeformedMoments evaluate_deformation(const fem::ShapeIntegrals& shape, const Vec
     }
   }
   if (common != nullptr) {
-    pass.add_regular(*common, pool);
+    pass.add_regular(*common, pool, clears_pieces);
   } else if (!shape.nodal.empty()) {
     pass.add(NodalInertia(shape.nodal), pool);
   }

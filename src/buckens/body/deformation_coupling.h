@@ -21,13 +21,15 @@ struct DeformationWeights {
 
 /// The moments quadratic in d and the nodal loads of a deformation, in one pass over the inertia
 /// integrals. Allocates nothing.
-/// @param load n, added to; unchanged where the weights are zero
+/// @param load n, added to, or overwritten; unchanged where the weights are zero
 /// @param pool processes nodes of solids in parallel, with the same result
 /// @param common holds a copy of the scalar mass matrix to be read; null: that of `shape`
+/// @param overwrites whatever stood in the load: of solids without reading it from memory
 DeformedMoments evaluate_deformation(const fem::ShapeIntegrals& shape, const linalg::Vector& d,
                                      const linalg::Vector& d_dot, const linalg::Vector& d_ddot,
                                      const DeformationWeights& weights, linalg::Vector& load,
                                      TaskPool* pool = nullptr,
-                                     const linalg::CommonTable* common = nullptr);
+                                     const linalg::CommonTable* common = nullptr,
+                                     bool overwrites = false);
 
 }  // namespace buckens::body

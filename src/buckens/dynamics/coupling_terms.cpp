@@ -32,14 +32,16 @@ void evaluate_coupling(const body::Body& body, const body::CouplingTerms& terms,
   out.t = 0;
   out.moments = {};
   out.load.resize(terms.have_load() ? d.size() : 0);
-  out.load.setZero();
+  body::DeformationWeights weights;
+  if (body.is_flexible() && terms.have_load()) {
+    weights = body::DeformationWeights::of_motion(w, w_dot, terms);
+  }
+  if (weights.are_zero()) out.load.setZero();
   if (!body.is_flexible()) return;
   const body::FlexiblePart& part = *body.flexible;
-  body::DeformationWeights weights;
-  if (terms.have_load()) weights = body::DeformationWeights::of_motion(w, w_dot, terms);
   if (terms.quad_ref || !weights.are_zero()) {
     const body::DeformedMoments moments = body::evaluate_deformation(
-        part.fe.shape, d, d_dot, d_ddot, weights, out.load, pool, common);
+        part.fe.shape, d, d_dot, d_ddot, weights, out.load, pool, common, true);
     if (terms.quad_ref) out.moments = moments;
   }
   if (!terms.jvar) out.moments.J.setZero();
