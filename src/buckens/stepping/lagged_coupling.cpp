@@ -46,12 +46,13 @@ void LaggedCoupling::start(const model::BodyState& s, int history, double t, Tas
 
 LaggedCoupling::Sizes LaggedCoupling::compare_loads(TaskPool* pool) {
   std::array<Sizes, linalg::RowParts::kMostParts> parts;
-  change_.resize(evaluated_.load.size());
   rows_.for_pieces(pool, [&](int part, Index first, Index size) {
     Sizes& sizes = parts[static_cast<std::size_t>(part)];
     const auto weight = inverse_diagonal_.segment(first, size);
     const auto load = evaluated_.load.segment(first, size);
-    auto change = change_.segment(first, size);
+    // Where the cache holds it: few steps need the change itself.
+    std::array<double, linalg::RowParts::kPiece> room;
+    Eigen::Map<linalg::Vector> change(room.data(), size);
     change = load - used_.load.segment(first, size);
     sizes.change += change.cwiseAbs2().dot(weight);
     sizes.load += load.cwiseAbs2().dot(weight);

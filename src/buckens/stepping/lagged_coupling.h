@@ -62,8 +62,8 @@ class LaggedCoupling {
 
   const model::Coupling& used() const { return used_; }
   model::Coupling& evaluated() { return evaluated_; }
-  /// Change of the load from what was used to what was evaluated.
-  const linalg::Vector& change() const { return change_; }
+  /// Load that take_over() has replaced.
+  const linalg::Vector& load_before() const { return evaluated_.load; }
   /// Size of the whole coupling load, √(‖F‖² + ‖ĉ‖²), at the last evaluation.
   double load_size() const { return load_size_; }
   /// 1/K̂ᵢᵢ, which makes the norm; empty if there are no loads.
@@ -86,7 +86,6 @@ class LaggedCoupling {
   linalg::Vector moved_per_load_;           // the same as displacements; empty: are some
   Eigen::Matrix<double, 6, 6> undeformed_;  // cᵀ D⁻¹ c of the patterns c
   model::Coupling used_, evaluated_;
-  linalg::Vector change_;
   bool load_changed_ = true;
   double load_size_ = 0;
 };

@@ -86,11 +86,13 @@ void LargeStep::form_right_side(const model::BodyState& before, const Vector& lo
   if (load.size() > 0) rows_.for_pieces(pool, add_load);
 }
 
-void LargeStep::form_right_side_of_change(const Vector& change, TaskPool* pool) {
+void LargeStep::form_right_side_of_change(const Vector& before, const Vector& after,
+                                          TaskPool* pool) {
   is_first_ = false;
   change_.resize(rows_.rows());
   rows_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
-    change_.segment(first, size) = op_->scheme().force * change.segment(first, size);
+    change_.segment(first, size) =
+        op_->scheme().force * (after.segment(first, size) - before.segment(first, size));
   });
 }
 
@@ -165,6 +167,9 @@ void LargeStep::take_solution(const model::BodyState& before, VectorXd& y_free, 
   // Wilson's motion is sieved where the equations hold: at the end of the step the rule of linear
   // acceleration would let a rigid part of the rates, rounding at first, grow by 2 + √3 per step.
   const bool at_evaluation = scheme.has_offset();
+  // Of a solid the same moments give rigid motion and patterns, and those of a change add to those
+  // of the whole.
+  const bool has_both = op_->nodal() != nullptr && !(is_first_ && at_evaluation);
   clear_sums();
   rows_.for_pieces(pool, [&](int part, Index first, Index size) {
     PartSums& sums = sums_[static_cast<std::size_t>(part)];
@@ -178,9 +183,10 @@ void LargeStep::take_solution(const model::BodyState& before, VectorXd& y_free, 
       add_rigid(first, size, change_, sums);
       x += change_.segment(first, size);
     }
-    if (uses_patterns) add_patterns(first, size, sums);
+    if (uses_patterns && !has_both) add_patterns(first, size, sums);
   });
   if (is_first_) rigid_.setZero(op_->sieve().rank());
+  if (is_first_ || !has_both) pattern_values_.setZero();
   const Index interface = op_->num_interface_rows();
   y_free.resize(op_->N().rows());
   y_free.setZero();
@@ -188,11 +194,13 @@ void LargeStep::take_solution(const model::BodyState& before, VectorXd& y_free, 
   for (PartSums& sums : sums_) {
     if (op_->nodal() != nullptr) {
       sums.rigid = op_->nodal()->rigid(sums.nodal_rigid);
-      sums.patterns = body::NodalMotion::patterns(sums.nodal_patterns);
+      sums.patterns =
+          body::NodalMotion::patterns(has_both ? sums.nodal_rigid : sums.nodal_patterns);
     }
     rigid_ += scale * sums.rigid;
-    if (uses_patterns) y_free.tail<6>() += sums.patterns;
+    pattern_values_ += sums.patterns;
   }
+  if (uses_patterns) y_free.tail<6>() = pattern_values_;
   y_free.head(interface).noalias() += op_->N().topRows(interface) * free_;
   const Index used = uses_patterns ? y_free.size() : interface;
   y_free.head(used).noalias() -= op_->rigid_row_values().topRows(used) * rigid_;

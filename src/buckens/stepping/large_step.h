@@ -34,7 +34,8 @@ class LargeStep {
   /// @param load F, nodal load at the evaluation instant, n; empty for none
   void form_right_side(const model::BodyState& before, const linalg::Vector& load, TaskPool* pool);
   /// Forms the right-hand side for the change of x⁺ by a change of F.
-  void form_right_side_of_change(const linalg::Vector& change, TaskPool* pool);
+  void form_right_side_of_change(const linalg::Vector& before, const linalg::Vector& after,
+                                 TaskPool* pool);
   /// The right-hand side, to be solved in place.
   linalg::Vector& side() { return is_first_ ? free_ : change_; }
   /// Sieves the right-hand side, for a solver that iterates: what K̂⁻¹ makes of rigid motion would
@@ -126,6 +127,7 @@ class LargeStep {
   double energy_ = 0;          // √(xᵀK̂x) of the first one
   linalg::Matrix loads_of_N_;  // from misfits along N to loads along N, (N G)⁻¹
   Amplitudes rigid_;
+  Eigen::Matrix<double, 6, 1> pattern_values_;  // of free_
   std::vector<PartSums> sums_;
   linalg::Vector d_e_, rate_e_, acceleration_e_;  // empty if the equations hold at the end
   bool is_finite_ = true;

@@ -160,10 +160,10 @@ void Stepper::for_bodies(F&& f) {
 void Stepper::start_bodies(const model::State& state) {
   for_bodies([&](std::size_t b) {
     const model::BodyState& s = state.bodies[b];
+    if (flexible_[b]) flexible_[b]->coupling.start(s, state.history, state.t, pool_.get());
+    // Last: the right-hand side reads the same vectors of the mesh next.
     bodies_[b].start(s, operators_[b].get(), scheme_, pool_.get());
-    if (!flexible_[b]) return;
-    flexible_[b]->coupling.start(s, state.history, state.t, pool_.get());
-    bodies_[b].quadratic = flexible_[b]->coupling.used().moments;
+    if (flexible_[b]) bodies_[b].quadratic = flexible_[b]->coupling.used().moments;
   });
 }
 
@@ -186,7 +186,8 @@ Stepper::Answers Stepper::free_responses(const model::State& state, int round) {
     if (first_round) {
       body.large.form_right_side(state.bodies[b], body.coupling.used().load, pool_.get());
     } else {
-      body.large.form_right_side_of_change(body.coupling.change(), pool_.get());
+      body.large.form_right_side_of_change(body.coupling.load_before(), body.coupling.used().load,
+                                           pool_.get());
     }
     BodyStepOperator& op = *operators_[b];
     if (op.shared_factor() != nullptr) return;

@@ -172,7 +172,7 @@ TEST_P(LargeStepBy, SecondSolveForTheChangeOfALoadGivesTheStepWithTheNewLoad) {
   twice.form_right_side(before, first, nullptr);
   op.solve_right_side(twice.side());
   twice.take_solution(before, y_twice, nullptr);
-  twice.form_right_side_of_change(second - first, nullptr);
+  twice.form_right_side_of_change(first, second, nullptr);
   op.solve_right_side(twice.side());
   twice.take_solution(before, y_twice, nullptr);
   twice.complete(before, f, e, after, nullptr);

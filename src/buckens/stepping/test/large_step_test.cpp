@@ -104,6 +104,41 @@ TEST(LargeStep, IsTheSameToTheLastBitWithAnyNumberOfThreads) {
   }
 }
 
+TEST(LargeStep, KnowsValuesOfPatternsOfASolidAfterAnySolve) {
+  const auto block = steel_block({30, 6, 6});
+  const Eigen::Index n = block->num_dofs();
+  const auto some = [n](double frequency) -> Vector {
+    return Vector::LinSpaced(n, 0.0, frequency * static_cast<double>(n)).array().sin();
+  };
+  for (const Method method : {Method::generalized_alpha, Method::newmark, Method::wilson}) {
+    BodyStepOperator op(*block, Scheme(method, 1e-4, method == Method::wilson ? 1.4 : 0.9));
+    ASSERT_NE(op.nodal(), nullptr);
+    model::BodyState before, after;
+    before.d = 1e-3 * some(1.0);
+    before.d_dot = 0.1 * some(0.7);
+    before.d_ddot = 10.0 * some(0.3);
+    before.d_alg = 10.0 * some(0.4);
+    for (Vector* v : {&before.d, &before.d_dot, &before.d_ddot, &before.d_alg}) {
+      block->sieve.apply(*v);
+    }
+    LargeStep step(op);
+    const Vector first = 5e3 * some(0.2), second = 4e3 * some(0.5);
+    const Vector nothing = Vector::Zero(op.N().rows());
+    Vector y;
+    step.form_right_side(before, first, nullptr);
+    for (int solve = 0; solve < 2; ++solve) {
+      if (solve > 0) step.form_right_side_of_change(first, second, nullptr);
+      op.solve_right_side(step.side());
+      step.take_solution(before, y, nullptr);
+      step.complete(before, nothing, nothing, after, nullptr);
+      const Vector expected = op.N() * after.d;
+      // Sums of n products each, of which rigid motion is taken out afterwards.
+      EXPECT_LE((y - expected).norm(), 1e-11 * expected.norm())
+          << static_cast<int>(method) << solve;
+    }
+  }
+}
+
 TEST(LargeStep, TellsNumbersThatAreNone) {
   const auto block = steel_block({2, 1, 1});
   const body::FlexiblePart& part = *block;
