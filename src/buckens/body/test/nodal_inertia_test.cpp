@@ -127,6 +127,21 @@ TEST(NodalInertia, GivesTheSameBitsWithAnyNumberOfThreads) {
   }
 }
 
+TEST(NodalInertia, OverwritesWhateverStoodInALoad) {
+  const fem::ShapeIntegrals shape = string_of_nodes(5000, 0);
+  const NodalInertia nodal(shape.nodal);
+  const linalg::CommonTable common{nodal.matrix(), nullptr, nullptr};
+  const Vector d = Vector::LinSpaced(3 * shape.nodal.Ms.rows(), -0.01, 0.02);
+  const auto weights =
+      DeformationWeights::of_motion(Vector3d(1, -2, 3), Vector3d(-0.5, 0.7, 11), {});
+  Vector added = Vector::Zero(d.size());
+  evaluate_deformation(shape, d, d, d, weights, added, nullptr, &common);
+  ASSERT_GT(added.norm(), 0.0);
+  Vector written = Vector::Constant(d.size(), NAN);
+  evaluate_deformation(shape, d, d, d, weights, written, nullptr, &common, true);
+  EXPECT_EQ(written, added);
+}
+
 TEST(NodalInertia, LooksVariablesUpWhereTheyAreNumberedOtherwise) {
   constexpr int kNodes = 200;
   const Deformation regular = evaluate(string_of_nodes(kNodes, 0), 0, nullptr);
