@@ -60,6 +60,41 @@ simulation: {duration: 0.5 ms, step: 0.1 ms}
 output: {every: 0.1 ms, sensors: {force: {joint-force: hinge}, corner: {position: plate/corner_11}}}
 """
 
+
+
+def grid_of_beams(side=60):
+    """A square grid of beams, with bars, shells, masses and springs: each kind of elements that a body can have but solids."""
+
+    def node(i, j):
+        return f"n{i}_{j}"
+
+    places = [(i, j) for i in range(side) for j in range(side)]
+    nodes = {node(i, j): [0.01 * i, 0.01 * j, 0.0003 * ((3 * i + 5 * j) % 7)] for i, j in places}
+    beams = []
+    for i, j in places:
+        for a, b in ((i + 1, j), (i, j + 1)):
+            if a < side and b < side:
+                of = {"end-section": {"rectangle": {"width": 0.002, "height": 0.003}}} if (i + j) % 5 == 0 else {}
+                theory = {"theory": "timoshenko"} if j % 3 == 0 else {}
+                beams.append({"between": [node(i, j), node(a, b)], "section": "strip", "material": "steel", **of, **theory})
+    within = [(i, j) for i, j in places if i + 1 < side and j + 1 < side]
+    bars = [{"between": [node(i, j), node(i + 1, j + 1)], "area": 1e-6, "material": "steel"} for i, j in within if i % 4 == 1]
+    shells = [{"nodes": [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)], "thickness": 0.0005, "material": "steel"}
+              for i, j in within if j % 6 == 2]
+    masses = [{"at": node(i, j), "mass": 0.003} for i, j in places if (i * j) % 37 == 5]
+    springs = [{"between": [node(i, j), node(i + 1, j + 1)], "translation": [1e4, 2e4, 3e4], "rotation": [1, 2, 3]}
+               for i, j in within if j % 9 == 4]
+    return json.dumps({
+        "buckens": 1, "title": "A grid of beams large enough to be distributed", "gravity": [0, 0, -9.81],
+        "materials": {"steel": {"E": 210e9, "nu": 0.3, "rho": 7850, "damping": {"stiffness": 1e-5}}},
+        "sections": {"strip": {"rectangle": {"width": 0.003, "height": 0.002}}},
+        "bodies": {"grid": {"structure": {"nodes": nodes, "beams": beams, "bars": bars, "shells": shells, "masses": masses,
+                                          "links": {"springs": springs}}}},
+        "joints": {"hinge": {"revolute": {"between": ["ground", f"grid/{node(0, 0)}"], "axis": [0, 1, 0]}}},
+        "simulation": {"duration": 0.0005, "step": 0.0001},
+        "output": {"every": 0.0001, "sensors": {"force": {"joint-force": "hinge"}, "corner": {"position": f"grid/{node(side - 1, side - 1)}"}}}})
+
+
 PULL = "loads: {pull: {force: {on: cube/corner_111, value: [0, 0, 1 kN]}}}\n"
 
 several = pytest.mark.skipif(missing() or MPIRUN is None, reason="built without BUCKENS_MPI, or no mpirun")
@@ -93,6 +128,7 @@ def sets(*changes):
     return [word for change in changes for word in ("--set", change)]
 
 
+RIGID_EDGE = sets("bodies.plate.interfaces.edge.kind=rigid", "materials.steel.damping={mass: 20, stiffness: 0.01 ms}")
 COUPLINGS = ("full", "first-order", "none")
 # Runs of one process with which others are compared: verb, model or its text, arguments.
 ALONE = {
@@ -103,6 +139,8 @@ ALONE = {
     **{f"large {name}": ("run", CUBE, sets(*changes)) for name, changes in LARGE.items()},
     "twins": ("run", TWINS, ()),
     "shells": ("run", SHELLS, ()),
+    "shells with a rigid edge": ("run", SHELLS, RIGID_EDGE),
+    "beams": ("run", grid_of_beams(), ()),
     "static": ("static", CUBE.replace("{spherical:", "{fixed:") + PULL, ()),
 }
 
@@ -227,14 +265,17 @@ def test_equal_bodies_share_what_is_divided(alone, mpirun, tmp_path):
 
 
 @several
-def test_shells(alone, mpirun, tmp_path):
-    (tmp_path / "plate.yaml").write_text(SHELLS)
-    must(mpirun(2, "run", "plate.yaml", "-o", "two"))
-    summary = json.loads((tmp_path / "two" / "summary.json").read_text())
-    assert summary["bodies"]["plate"]["dof"] >= 20000, "large enough to be distributed"
+@pytest.mark.parametrize("count, name", [(2, "shells"), (3, "shells"), (2, "shells with a rigid edge"), (3, "beams")])
+def test_shells_and_beams(alone, mpirun, tmp_path, count, name):
+    _, model, change = ALONE[name]
+    (tmp_path / "model.yaml").write_text(model)
+    must(mpirun(count, "run", "model.yaml", "-o", "several", *change))
+    summary = json.loads((tmp_path / "several" / "summary.json").read_text())
+    assert next(iter(summary["bodies"].values()))["dof"] >= 20000, "large enough to be distributed"
     assert summary["measures"]["messages_per_step"] > 0
-    assert largest_difference(sensors(tmp_path / "two"), sensors(alone("shells"))) < 1e-9
-    expect_same_stresses(tmp_path / "two", alone("shells"))
+    assert largest_difference(sensors(tmp_path / "several"), sensors(alone(name))) < 1e-9
+    expect_same_energies(tmp_path / "several", alone(name))
+    expect_same_stresses(tmp_path / "several", alone(name))
 
 
 @several
@@ -367,10 +408,10 @@ def memory_of_the_second(place, model, duration):
         runs.wait(timeout=60)
 
 
-def told_with_little_memory(place, most):
-    """What the cube's run says whose second process may have so much memory [bytes]: one line."""
+def told_with_little_memory(place, most, model="cube.yaml"):
+    """What a run says whose second process may have so much memory [bytes]: one line."""
     limited = f"[ $OMPI_COMM_WORLD_RANK = 0 ] || ulimit -v {most // 1024}; exec \"$@\""
-    command = [MPIRUN, "-n", "2", "sh", "-c", limited, "sh", PROGRAM, "run", "cube.yaml", "-o", "out"]
+    command = [MPIRUN, "-n", "2", "sh", "-c", limited, "sh", PROGRAM, "run", model, "-o", "out"]
     result = subprocess.run(command, cwd=place, capture_output=True, text=True, timeout=240, check=False, env=ONE_HEAP,
                             stdin=subprocess.DEVNULL)
     assert result.returncode != 0
@@ -389,12 +430,14 @@ def test_too_little_memory_for_a_part_of_the_factor(tmp_path):
 
 
 @several
-def test_too_little_memory_for_making_columns(tmp_path):
-    """Processes other than the first assemble M and K of solids, so one of them lacks memory before there is a factor."""
-    (tmp_path / "cube.yaml").write_text(CUBE)
+@pytest.mark.parametrize("model", [CUBE, SHELLS, grid_of_beams()], ids=["solids", "shells", "beams"])
+def test_too_little_memory_for_making_columns(tmp_path, model):
+    """Processes other than the first assemble M and K, so one of them lacks memory before there is a factor."""
+    (tmp_path / "model.yaml").write_text(model)
     idle = memory_of_the_second(tmp_path, BLOCKS, "30 s")
-    # K of both triangles takes 20 MB, and what elements add to it as much again.
-    assert "equations on 2 processes could not be made" in told_with_little_memory(tmp_path, idle + 16_000_000)
+    # Lists of what elements add to M of shells take 20 MB; K of both triangles 20 MB of solids, 13 MB of shells; what elements add to it comes on top.
+    told = told_with_little_memory(tmp_path, idle + 16_000_000, "model.yaml")
+    assert "equations on 2 processes could not be made" in told and "making the rows" in told
 
 
 def test_one_process_counts_nothing(buckens, tmp_path):

@@ -12,8 +12,10 @@
 #include "buckens/base/errors.h"
 #include "buckens/body/loose_motions.h"
 #include "buckens/body/second_moments.h"
+#include "buckens/fem/assembly/made_columns.h"
 #include "buckens/fem/constraint/elimination.h"
 #include "buckens/fem/element/node_label.h"
+#include "buckens/linalg/ranks.h"
 
 namespace buckens::body {
 
@@ -81,10 +83,12 @@ class Condensation {
   const SparseMatrix& T() const { return T_; }
   bool is_free(std::size_t node) const { return elimination_.is_free[node]; }
   /// TᵀAT.
-  SparseMatrix condensed(const SparseMatrix& A) const {
-    if (A.nonZeros() == 0) return SparseMatrix(T_.cols(), T_.cols());
-    const SparseMatrix AT = A * T_;
-    return T_.transpose() * AT;
+  SparseMatrix condensed(const SparseMatrix& A) const { return fem::condensed(A, T_); }
+  /// The same of a matrix of the mesh, where it is divided without bringing it back.
+  linalg::SymmetricMatrix condensed(fem::MeshMatrix which, const linalg::SymmetricMatrix& A) const {
+    if (!A.is_divided() || !linalg::is_shared_work(T_.cols())) return condensed(A.whole());
+    const fem::Following rows = T_;
+    return fem::matrix_made_elsewhere(which, full_->blocks, {full_->nodes, full_->dofs}, &rows);
   }
   /// Component `axis` of the displacements of all nodes, a row each.
   SparseMatrix component(std::size_t axis) const {
@@ -157,9 +161,9 @@ fem::FeModel condensed(const fem::FeModel& full, const Condensation& elimination
   fem::FeModel fe;
   fe.nodes = elimination.nodes();
   fe.dofs = elimination.dofs();
-  fe.M = elimination.condensed(full.M);
-  fe.K = elimination.condensed(full.K);
-  fe.K_damping = elimination.condensed(full.K_damping);
+  fe.M = elimination.condensed(fem::MeshMatrix::mass, full.M);
+  fe.K = elimination.condensed(fem::MeshMatrix::stiffness, full.K);
+  fe.K_damping = elimination.condensed(fem::MeshMatrix::damping, full.K_damping);
   fe.mass_damping = full.mass_damping;
   fe.damps_held_motion = full.damps_held_motion;
   fe.shape = condensed(full.shape, elimination);
@@ -170,7 +174,7 @@ fem::FeModel condensed(const fem::FeModel& full, const Condensation& elimination
 
 LinkedPart with_links(const std::string& body, FlexiblePart& part,
                       const std::vector<RigidRegion>& regions, const fem::NodeLinks& links) {
-  auto full = std::make_shared<const fem::FeModel>(std::move(part.fe));
+  auto full = std::make_shared<fem::FeModel>(std::move(part.fe));
   refuse_common_nodes(body, full->nodes.size(), regions);
   Condensation elimination(*full, regions, links);
   fem::FeModel fe = condensed(*full, elimination);
@@ -187,6 +191,9 @@ LinkedPart with_links(const std::string& body, FlexiblePart& part,
     out.note = loose_motions_note(*full, loose);
   }
   out.part = std::make_unique<FlexiblePart>(body, std::move(fe), part.coupling);
+  // Steps need M of the full mesh, for coordinates of given displacements, but not K.
+  full->K = {};
+  full->K_damping = {};
   out.part->full_mesh = std::move(full);
   out.part->recovery = NodalRecovery(elimination.T());
   return out;

@@ -17,7 +17,6 @@
 namespace buckens::fem {
 
 using linalg::SparseMatrix;
-using linalg::Triplet;
 
 namespace {
 
@@ -129,12 +128,6 @@ DofMap number_dofs(const Structure& structure, const Blocks& blocks,
   return dofs;
 }
 
-SparseMatrix to_sparse(int n, const std::vector<Triplet>& triplets) {
-  SparseMatrix A(n, n);
-  A.setFromTriplets(triplets.begin(), triplets.end());
-  return A;
-}
-
 /// α and what it acts on, common to all materials.
 void set_mass_damping(FeModel& fe) {
   const Material* first = nullptr;
@@ -161,15 +154,6 @@ void set_mass_damping(FeModel& fe) {
   fe.damps_held_motion = first->damps_held_motion;
 }
 
-/// Whether the other processes are to make the matrices of a body.
-bool is_made_elsewhere(const Structure& structure, const Blocks& blocks, int num_dofs) {
-  const bool has_others = std::any_of(blocks.begin(), blocks.end(), [](const auto& block) {
-    return !block->is_solid() && block->num_elements() > 0;
-  });
-  // Links are eliminated, for which matrices are whole.
-  return linalg::is_shared_work(num_dofs) && !has_others && structure.links.empty();
-}
-
 /// @return the part of M that is not in Σ W_aa
 SparseMatrix integrate_inertia(const Blocks& blocks, const MeshView& mesh, FeModel& fe) {
   MassMoment moment;
@@ -184,33 +168,26 @@ SparseMatrix integrate_inertia(const Blocks& blocks, const MeshView& mesh, FeMod
   const int n = mesh.dofs.num_dofs;
   AssembledInertia inertia = assemble_inertia(blocks, mesh, shape.com);
   InertiaSum& sum = inertia.sum;
-  for (std::size_t k = 0; k < sum.W.size(); ++k) shape.W[k] = to_sparse(n, sum.W[k]);
+  for (std::size_t k = 0; k < sum.W.size(); ++k) shape.W[k] = taken_matrix(n, sum.W[k]);
   shape.c = std::move(sum.c);
   shape.C0 = sum.C0;
   shape.J0 = sum.C0.trace() * Eigen::Matrix3d::Identity() - sum.C0 + sum.J0_flywheel;
   shape.nodal = std::move(inertia.nodal);
-  return to_sparse(n, sum.M_flywheel);
+  return taken_matrix(n, sum.M_flywheel);
 }
 
-SparseMatrix assemble_mass(const FeModel& fe, const SparseMatrix& flywheel) {
-  const ShapeIntegrals& shape = fe.shape;
-  SparseMatrix M = shape.W[0] + shape.W[1];
-  M += shape.W[2];
-  M += flywheel;
-  if (!shape.nodal.empty()) M += mass_of_nodes(shape.nodal, fe.dofs.num_dofs);
-  M.makeCompressed();
-  return M;
-}
-
-void let_others_make(const SolidBlock& solids, const MeshView& mesh, FeModel& fe) {
-  fe.M = matrix_made_elsewhere(MeshMatrix::mass, solids, mesh);
-  fe.K = matrix_made_elsewhere(MeshMatrix::stiffness, solids, mesh);
-  bool is_damped = false;
-  for (int e = 0; e < solids.num_elements(); ++e) {
-    is_damped = is_damped || solids.material(e)->damping_stiffness != 0.0;
-  }
+void let_others_make(const MeshView& mesh, FeModel& fe) {
+  fe.M = matrix_made_elsewhere(MeshMatrix::mass, fe.blocks, mesh);
+  fe.K = matrix_made_elsewhere(MeshMatrix::stiffness, fe.blocks, mesh);
+  const bool is_damped = std::any_of(fe.blocks.begin(), fe.blocks.end(), [](const auto& block) {
+    for (int e = 0; e < block->num_elements(); ++e) {
+      const Material* material = block->material(e);
+      if (material != nullptr && material->damping_stiffness != 0.0) return true;
+    }
+    return false;
+  });
   fe.K_damping = SparseMatrix(mesh.dofs.num_dofs, mesh.dofs.num_dofs);
-  if (is_damped) fe.K_damping = matrix_made_elsewhere(MeshMatrix::damping, solids, mesh);
+  if (is_damped) fe.K_damping = matrix_made_elsewhere(MeshMatrix::damping, fe.blocks, mesh);
 }
 
 }  // namespace
@@ -234,11 +211,12 @@ FeModel assemble(const Structure& structure, std::optional<spatial::Plane> plana
 
   const SparseMatrix flywheel = integrate_inertia(fe.blocks, mesh, fe);
   set_mass_damping(fe);
-  if (is_made_elsewhere(structure, fe.blocks, fe.dofs.num_dofs)) {
-    let_others_make(structure.solids, mesh, fe);
+  // Links are eliminated, for which matrices are whole.
+  if (linalg::is_shared_work(fe.dofs.num_dofs) && structure.links.empty()) {
+    let_others_make(mesh, fe);
     return fe;
   }
-  fe.M = assemble_mass(fe, flywheel);
+  fe.M = mass_matrix(fe.shape, flywheel, fe.dofs.num_dofs);
   StiffnessMatrices stiffness = assemble_stiffness(fe.blocks, mesh);
   fe.K = std::move(stiffness.K);
   fe.K_damping = std::move(stiffness.K_damping);

@@ -46,6 +46,25 @@ AssembledInertia assemble_inertia(const std::vector<std::shared_ptr<const Elemen
   return out;
 }
 
+SparseMatrix taken_matrix(int n, std::vector<linalg::Triplet>& listed) {
+  SparseMatrix A(n, n);
+  A.setFromTriplets(listed.begin(), listed.end());
+  listed = {};
+  return A;
+}
+
+SparseMatrix mass_matrix(const ShapeIntegrals& shape, const SparseMatrix& flywheel, int n) {
+  const bool is_scalar = flywheel.nonZeros() == 0 && shape.W[0].nonZeros() == 0 &&
+                         shape.W[1].nonZeros() == 0 && shape.W[2].nonZeros() == 0;
+  if (is_scalar && !shape.nodal.empty()) return mass_of_nodes(shape.nodal, n);
+  SparseMatrix M = shape.W[0] + shape.W[1];
+  M += shape.W[2];
+  M += flywheel;
+  if (!shape.nodal.empty()) M += mass_of_nodes(shape.nodal, n);
+  M.makeCompressed();
+  return M;
+}
+
 SparseMatrix mass_of_nodes(const NodalMass& nodal, int n) {
   const auto visit = [&nodal](auto&& entry) {
     for (int to = 0; to < nodal.Ms.outerSize(); ++to) {

@@ -19,6 +19,13 @@ struct AssembledInertia {
 AssembledInertia assemble_inertia(const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
                                   const MeshView& mesh, const Eigen::Vector3d& com);
 
+/// The n×n sum of what elements have listed, in its order. Empties the list.
+linalg::SparseMatrix taken_matrix(int n, std::vector<linalg::Triplet>& listed);
+
+/// M, n×n: W_11 + W_22 + W_33 with the scalar mass matrix, and what is not in them.
+linalg::SparseMatrix mass_matrix(const ShapeIntegrals& shape, const linalg::SparseMatrix& flywheel,
+                                 int n);
+
 /// Ms ⊗ 1 over the variables, n×n.
 linalg::SparseMatrix mass_of_nodes(const NodalMass& nodal, int n);
 

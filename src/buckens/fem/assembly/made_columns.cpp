@@ -2,13 +2,11 @@
 #include "buckens/fem/assembly/made_columns.h"
 
 #include <algorithm>
-#include <cstring>
-#include <map>
 #include <memory>
-#include <type_traits>
 #include <utility>
 
 #include "buckens/fem/assembly/inertia_assembly.h"
+#include "buckens/fem/assembly/mesh_part.h"
 #include "buckens/fem/assembly/stiffness_assembly.h"
 #include "buckens/linalg/counted_entries.h"
 #include "buckens/linalg/divided_matrix.h"
@@ -19,196 +17,134 @@ using linalg::SparseMatrix;
 
 namespace {
 
-/// Puts numbers into bytes.
-class BytesTo {
- public:
-  template <class T>
-  void operator()(const T& value) {
-    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
-    const std::size_t at = bytes_.size();
-    bytes_.resize(at + sizeof value);
-    std::memcpy(bytes_.data() + at, &value, sizeof value);
+/// Of all variables of a part. Those whose elements are not all here lack something.
+SparseMatrix matrix_of(MeshMatrix which, const MeshPart& part) {
+  const MeshView mesh{part.nodes, part.dofs};
+  if (which == MeshMatrix::mass) {
+    AssembledInertia inertia = assemble_inertia(part.blocks, mesh, Eigen::Vector3d::Zero());
+    // Only moments depend on the mass centre.
+    const int n = part.dofs.num_dofs;
+    ShapeIntegrals shape;
+    for (std::size_t k = 0; k < 3; ++k) shape.W[k] = taken_matrix(n, inertia.sum.W[k]);
+    shape.nodal = std::move(inertia.nodal);
+    return mass_matrix(shape, taken_matrix(n, inertia.sum.M_flywheel), n);
   }
-  std::vector<std::byte> take() { return std::move(bytes_); }
-
- private:
-  std::vector<std::byte> bytes_;
-};
-
-/// Takes them out again.
-class BytesFrom {
- public:
-  explicit BytesFrom(std::span<const std::byte> bytes) : bytes_(bytes) {}
-  template <class T>
-  void operator()(T& value) {
-    std::memcpy(&value, bytes_.data(), sizeof value);
-    bytes_ = bytes_.subspan(sizeof value);
-  }
-  template <class T>
-  T next() {
-    T value{};
-    (*this)(value);
-    return value;
-  }
-
- private:
-  std::span<const std::byte> bytes_;
-};
-
-/// What matrices of elements depend on.
-template <class Visitor>
-void visit_numbers(Material& material, Visitor& visit) {
-  for (double Material::*number :
-       {&Material::E, &Material::nu, &Material::G, &Material::rho, &Material::damping_stiffness}) {
-    visit(material.*number);
-  }
-  bool is_orthotropic = material.orthotropy.has_value();
-  visit(is_orthotropic);
-  if (!is_orthotropic) return;
-  if (!material.orthotropy) material.orthotropy.emplace();
-  Orthotropy& of = *material.orthotropy;
-  for (Eigen::Index k = 0; k < 3; ++k) visit(of.E[k]);
-  for (double* number : {&of.nu12, &of.nu13, &of.nu23, &of.G12, &of.G13, &of.G23}) visit(*number);
-  for (Eigen::Index k = 0; k < 9; ++k) visit(of.axes.data()[k]);
-}
-
-/// Elements of a mesh of solids and what belongs to them.
-struct PartOfMesh {
-  MeshMatrix which = MeshMatrix::mass;
-  int size = 0;  ///< variables of the whole mesh
-  std::vector<Node> nodes;
-  DofMap dofs;
-  std::vector<int> variables;  ///< of the whole mesh, ascending, for each of those here
-  std::shared_ptr<SolidBlock> solids = std::make_shared<SolidBlock>();
-};
-
-bool has_variable_in(const DofMap& dofs, std::span<const int> nodes, int first, int end) {
-  return std::any_of(nodes.begin(), nodes.end(), [&](int node) {
-    const auto& own = dofs.node_dofs[static_cast<std::size_t>(node)];
-    return std::any_of(own.begin(), own.end(), [&](int dof) { return dof >= first && dof < end; });
-  });
-}
-
-void put_elements(const SolidBlock& solids, const std::vector<int>& elements,
-                  const std::vector<int>& number, BytesTo& put) {
-  std::map<const Material*, int> materials;
-  for (const int e : elements) materials.emplace(solids.material(e), 0);
-  put(static_cast<int>(materials.size()));
-  int count = 0;
-  for (auto& [material, place] : materials) {
-    Material copy = *material;
-    visit_numbers(copy, put);
-    place = count++;
-  }
-  put(static_cast<int>(elements.size()));
-  for (const int e : elements) {
-    put(solids.form(e).kind);
-    put(solids.form(e).integration);
-    put(materials.at(solids.material(e)));
-    for (const int node : solids.nodes(e)) put(number[static_cast<std::size_t>(node)]);
-  }
-}
-
-void take_elements(BytesFrom& take, SolidBlock& solids) {
-  for (int left = take.next<int>(); left > 0; --left) {
-    Material material;
-    visit_numbers(material, take);
-    solids.add_material(material);
-  }
-  std::vector<int> nodes;
-  for (int left = take.next<int>(); left > 0; --left) {
-    SolidForm form;
-    take(form.kind);
-    take(form.integration);
-    const int material = take.next<int>();
-    nodes.resize(static_cast<std::size_t>(solid_topology(form.kind).num_nodes));
-    for (int& node : nodes) take(node);
-    solids.add(form, nodes, material);
-  }
-}
-
-PartOfMesh part_from(std::span<const std::byte> description) {
-  BytesFrom take(description);
-  PartOfMesh out;
-  take(out.which);
-  take(out.size);
-  for (int left = take.next<int>(); left > 0; --left) {
-    Node& node = out.nodes.emplace_back();
-    for (double& coordinate : node.position) take(coordinate);
-    for (int& dof : out.dofs.node_dofs.emplace_back()) {
-      take(dof);
-      if (dof < 0) continue;
-      out.variables.push_back(dof);
-      dof = out.dofs.num_dofs++;
-    }
-  }
-  take_elements(take, *out.solids);
+  StiffnessMatrices stiffness = assemble_stiffness(part.blocks, mesh);
+  SparseMatrix out;
+  out.swap(which == MeshMatrix::stiffness ? stiffness.K : stiffness.K_damping);
   return out;
 }
 
-/// Of all variables of a part. Those whose elements are not all here lack something.
-SparseMatrix matrix_of(const PartOfMesh& part) {
-  const MeshView mesh{part.nodes, part.dofs};
-  const std::vector<std::shared_ptr<const ElementBlock>> blocks = {part.solids};
-  if (part.which == MeshMatrix::mass) {
-    const AssembledInertia inertia = assemble_inertia(blocks, mesh, Eigen::Vector3d::Zero());
-    if (inertia.nodal.dofs.empty()) return {part.dofs.num_dofs, part.dofs.num_dofs};
-    return mass_of_nodes(inertia.nodal, part.dofs.num_dofs);
+/// The variables on which columns depend.
+std::vector<bool> variables_behind(int num_dofs, int first, int end, const Following* T) {
+  std::vector<bool> out(static_cast<std::size_t>(num_dofs), false);
+  if (T == nullptr) {
+    std::fill(out.begin() + first, out.begin() + end, true);
+    return out;
   }
-  StiffnessMatrices stiffness = assemble_stiffness(blocks, mesh);
-  SparseMatrix out;
-  out.swap(part.which == MeshMatrix::stiffness ? stiffness.K : stiffness.K_damping);
+  for (int row = 0; row < num_dofs; ++row) {
+    for (Following::InnerIterator it(*T, row); it; ++it) {
+      if (it.col() >= first && it.col() < end) out[static_cast<std::size_t>(row)] = true;
+    }
+  }
+  return out;
+}
+
+void put_following(const Following& T, const std::vector<int>& variables, BytesTo& put) {
+  put(static_cast<int>(T.cols()));
+  for (const int row : variables) {
+    put(T.outerIndexPtr()[row + 1] - T.outerIndexPtr()[row]);
+    for (Following::InnerIterator it(T, row); it; ++it) {
+      put(static_cast<int>(it.col()));
+      put(it.value());
+    }
+  }
+}
+
+/// Rows of T, its columns numbered among those that have entries here.
+struct PartFollowing {
+  int size = 0;              ///< columns of all of T
+  std::vector<int> columns;  ///< of T, ascending, for each of those here
+  SparseMatrix T;
+};
+
+PartFollowing taken_following(std::size_t rows, BytesFrom& take) {
+  PartFollowing out;
+  take(out.size);
+  std::vector<linalg::Triplet> entries;
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (int left = take.next<int>(); left > 0; --left) {
+      const int column = take.next<int>();
+      entries.emplace_back(static_cast<int>(row), column, take.next<double>());
+      out.columns.push_back(column);
+    }
+  }
+  std::sort(out.columns.begin(), out.columns.end());
+  out.columns.erase(std::unique(out.columns.begin(), out.columns.end()), out.columns.end());
+  const auto place = [&out](int column) {
+    return std::lower_bound(out.columns.begin(), out.columns.end(), column) - out.columns.begin();
+  };
+  for (linalg::Triplet& entry : entries) {
+    entry = {entry.row(), static_cast<int>(place(entry.col())), entry.value()};
+  }
+  out.T.resize(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(out.columns.size()));
+  out.T.setFromTriplets(entries.begin(), entries.end());
   return out;
 }
 
 }  // namespace
 
-std::vector<std::byte> description_of_columns(MeshMatrix which, const SolidBlock& solids,
-                                              const MeshView& mesh, int first, int end) {
-  std::vector<int> elements;
-  std::vector<int> number(mesh.nodes.size(), -1);
-  for (int e = 0; e < solids.num_elements(); ++e) {
-    if (!has_variable_in(mesh.dofs, solids.nodes(e), first, end)) continue;
-    elements.push_back(e);
-    for (const int node : solids.nodes(e)) number[static_cast<std::size_t>(node)] = 0;
-  }
-  // Nodes stay in their order, and so do elements.
-  int count = 0;
-  for (int& place : number) place = place < 0 ? -1 : count++;
+std::vector<std::byte> description_of_columns(
+    MeshMatrix which, const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
+    const MeshView& mesh, int first, int end, const Following* T) {
   BytesTo put;
   put(which);
-  put(mesh.dofs.num_dofs);
-  put(count);
-  for (std::size_t node = 0; node < number.size(); ++node) {
-    if (number[node] < 0) continue;
-    for (const double coordinate : mesh.nodes[node].position) put(coordinate);
-    for (const int dof : mesh.dofs.node_dofs[node]) put(dof);
-  }
-  put_elements(solids, elements, number, put);
+  const std::vector<int> variables =
+      put_part(blocks, mesh, variables_behind(mesh.dofs.num_dofs, first, end, T), put);
+  put(T != nullptr);
+  if (T != nullptr) put_following(*T, variables, put);
   return put.take();
 }
 
-linalg::SymmetricMatrix matrix_made_elsewhere(MeshMatrix which, const SolidBlock& solids,
-                                              const MeshView& mesh) {
+linalg::SymmetricMatrix matrix_made_elsewhere(
+    MeshMatrix which, const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
+    const MeshView& mesh, const Following* T) {
+  const auto describe = [&](int first, int end) {
+    return description_of_columns(which, blocks, mesh, first, end, T);
+  };
   return linalg::SymmetricMatrix(std::make_shared<const linalg::DividedMatrix>(
-      mesh.dofs.num_dofs,
-      [&](int first, int end) { return description_of_columns(which, solids, mesh, first, end); }));
+      T != nullptr ? T->cols() : mesh.dofs.num_dofs, describe));
 }
 
 SparseMatrix made_columns(std::span<const std::byte> description, int first, int end) {
-  const PartOfMesh part = part_from(description);
-  const SparseMatrix A = matrix_of(part);
+  BytesFrom take(description);
+  const auto which = take.next<MeshMatrix>();
+  const MeshPart part = taken_part(take);
+  SparseMatrix A = matrix_of(which, part);
+  const bool follows = take.next<bool>();
+  PartFollowing following;
+  if (follows) {
+    following = taken_following(part.variables.size(), take);
+    A = condensed(A, following.T);
+  }
+  const std::vector<int>& variables = follows ? following.columns : part.variables;
   const auto visit = [&](auto&& entry) {
     for (int k = 0; k < A.outerSize(); ++k) {
-      const int column = part.variables[static_cast<std::size_t>(k)];
+      const int column = variables[static_cast<std::size_t>(k)];
       if (column < first || column >= end) continue;
       for (SparseMatrix::InnerIterator it(A, k); it; ++it) {
         if (it.row() < k) continue;
-        entry(part.variables[static_cast<std::size_t>(it.row())], column - first, it.value());
+        entry(variables[static_cast<std::size_t>(it.row())], column - first, it.value());
       }
     }
   };
-  return linalg::from_counted_entries(part.size, end - first, visit);
+  return linalg::from_counted_entries(follows ? following.size : part.size, end - first, visit);
+}
+
+SparseMatrix condensed(const SparseMatrix& A, const SparseMatrix& T) {
+  if (A.nonZeros() == 0) return {T.cols(), T.cols()};
+  const SparseMatrix AT = A * T;
+  return T.transpose() * AT;
 }
 
 }  // namespace buckens::fem

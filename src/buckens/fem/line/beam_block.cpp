@@ -79,12 +79,19 @@ int BeamBlock::add(int node_a, int node_b, int properties, const BeamPortion& po
   if (properties < 0 || properties >= static_cast<int>(properties_.size())) {
     throw ModelError(fmt::format("beam: there are no properties number {}", properties));
   }
-  int taper = -1;
-  if (const SectionLaw& law = properties_[static_cast<std::size_t>(properties)].taper) {
-    taper = static_cast<int>(tapers_.size());
-    tapers_.push_back(section_taper(law, portion.from, portion.to));
-  }
-  elements_.push_back({{node_a, node_b}, properties, portion, taper});
+  const SectionLaw& law = properties_[static_cast<std::size_t>(properties)].taper;
+  if (!law) return add(node_a, node_b, properties, portion, nullptr);
+  const SectionTaper own = section_taper(law, portion.from, portion.to);
+  return add(node_a, node_b, properties, portion, &own);
+}
+
+int BeamBlock::add(int node_a, int node_b, int properties, const BeamPortion& portion,
+                   const SectionTaper* taper) {
+  elements_.push_back({{node_a, node_b},
+                       properties,
+                       portion,
+                       taper == nullptr ? -1 : static_cast<int>(tapers_.size())});
+  if (taper != nullptr) tapers_.push_back(*taper);
   return num_elements() - 1;
 }
 

@@ -46,6 +46,9 @@ class BeamBlock final : public ElementBlock {
   int add_properties(BeamProperties properties);
   /// @return index of the element in this block
   int add(int node_a, int node_b, int properties, const BeamPortion& portion = {});
+  /// One whose sections are given instead of following from the properties; null: uniform.
+  int add(int node_a, int node_b, int properties, const BeamPortion& portion,
+          const SectionTaper* taper);
 
   int num_elements() const override { return static_cast<int>(elements_.size()); }
   std::span<const int> nodes(int element) const override { return at(element).ends; }
@@ -59,6 +62,8 @@ class BeamBlock final : public ElementBlock {
   double axial_rigidity(int element) const override;
   const BeamProperties& properties(int element) const { return of(at(element)); }
   const BeamPortion& portion(int element) const { return at(element).portion; }
+  /// Null for a uniform element.
+  const SectionTaper* taper(int element) const { return taper(at(element)); }
   /// A along an element.
   Quartic area(int element) const;
 

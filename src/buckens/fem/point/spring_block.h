@@ -30,6 +30,8 @@ class SpringBlock final : public ElementBlock {
   const Material* material(int /*element*/) const override { return nullptr; }
   const Section* section(int /*element*/) const override { return nullptr; }
 
+  const Stiffness& stiffness(int element) const { return at(element).stiffness; }
+
   /// @throws ModelError if the stiffness is not symmetric and positive semi-definite, or needs
   /// rotations that the nodes do not have
   void check(const MeshView& mesh) const override;

@@ -106,6 +106,12 @@ int ShellBlock::add(std::span<const int> nodes, int section) {
   return num_elements() - 1;
 }
 
+int ShellBlock::add(std::span<const int> nodes, int section, const ShellVectors& directors) {
+  const int element = add(nodes, section);
+  directors_.push_back(directors);
+  return element;
+}
+
 ShellVectors ShellBlock::positions(const std::vector<Node>& all, int element) const {
   const std::span<const int> own = nodes(element);
   ShellVectors out(3, static_cast<Eigen::Index>(own.size()));

@@ -27,6 +27,9 @@ class ShellBlock final : public ElementBlock {
   /// @return index of the element in this block
   /// @throws ModelError for any other number of nodes
   int add(std::span<const int> nodes, int section);
+  /// The same with given directors, one for each of its nodes.
+  /// @pre all elements before it have directors
+  int add(std::span<const int> nodes, int section, const ShellVectors& directors);
 
   /// Sets the number of an element in messages: that in its file instead of index + 1.
   void set_number(int element, std::int64_t number) {

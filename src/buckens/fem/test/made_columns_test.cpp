@@ -2,8 +2,13 @@
 // In one process; over several: tests/test_mpi.py.
 #include "buckens/fem/assembly/made_columns.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
+#include "buckens/fem/assembly/structure_parts.h"
+#include "buckens/fem/constraint/elimination.h"
+#include "buckens/fem/test/shell_fixture.h"
 #include "buckens/fem/test/solid_fixture.h"
 
 namespace buckens::fem::test {
@@ -27,8 +32,8 @@ void expect_columns(const SparseMatrix& found, const SparseMatrix& A, int first)
   }
 }
 
-void expect_same_matrices(const Structure& s) {
-  const FeModel fe = assemble(s);
+void expect_same_matrices(const Structure& s, std::optional<spatial::Plane> planar = std::nullopt) {
+  const FeModel fe = assemble(s, planar);
   const MeshView mesh{fe.nodes, fe.dofs};
   const int n = fe.dofs.num_dofs;
   const std::array<const SparseMatrix*, 3> matrices = {&fe.M.whole(), &fe.K.whole(),
@@ -38,7 +43,7 @@ void expect_same_matrices(const Structure& s) {
   for (const MeshMatrix which : {MeshMatrix::mass, MeshMatrix::stiffness, MeshMatrix::damping}) {
     for (std::size_t k = 0; k + 1 < runs.size(); ++k) {
       const std::vector<std::byte> description =
-          description_of_columns(which, s.solids, mesh, runs[k], runs[k + 1]);
+          description_of_columns(which, fe.blocks, mesh, runs[k], runs[k + 1]);
       const SparseMatrix found = made_columns(description, runs[k], runs[k + 1]);
       ASSERT_EQ(found.cols(), runs[k + 1] - runs[k]);
       expect_columns(found, *matrices[static_cast<std::size_t>(which)], runs[k]);
@@ -69,6 +74,126 @@ TEST_P(MadeColumnsTest, HaveTheBitsOfAnAssemblyInOneProcess) {
 
 INSTANTIATE_TEST_SUITE_P(AllForms, MadeColumnsTest, ::testing::ValuesIn(all_forms()),
                          [](const auto& form) { return form_name(form.param); });
+
+/// Two layers of different materials, off the nodes.
+ShellSection layered() {
+  ShellSection section = ShellSection::homogeneous(crossed(), 0.002, 0.0007);
+  section.layers.push_back({crossed(), 0.001, 0.4});
+  section.layers.back().material.rho = 2700;
+  section.direction = Eigen::Vector3d(1, 0.2, 0.1);
+  return section;
+}
+
+ShellGrid shells_with_waves(ShellKind kind) {
+  // Directors of neighbours are means of normals that differ.
+  return {kind, 9, 7, layered(), [](double x, double y) {
+            return Eigen::Vector3d(0.6 * x, 0.4 * y, 0.1 * x * y + 0.02 * std::sin(9 * x));
+          }};
+}
+
+class MadeColumnsOfShellsTest : public ::testing::TestWithParam<ShellKind> {};
+
+TEST_P(MadeColumnsOfShellsTest, HaveTheBitsOfAnAssemblyInOneProcess) {
+  expect_same_matrices(shells_with_waves(GetParam()).structure);
+}
+
+INSTANTIATE_TEST_SUITE_P(AllKinds, MadeColumnsOfShellsTest,
+                         ::testing::Values(ShellKind::quad4, ShellKind::tri3, ShellKind::quad8,
+                                           ShellKind::tri6),
+                         [](const auto& kind) { return shell_name(kind.param); });
+
+TEST(MadeColumnsOfBodyTest, KeepDirectorsOfADividedMesh) {
+  // Those at the cut are means with normals of the other part.
+  const Structure whole = shells_with_waves(ShellKind::quad4).structure;
+  for (const Structure& part : divide(whole, choose_parts(whole, 2)).parts) {
+    expect_same_matrices(part);
+  }
+}
+
+/// A skew chain of beams, uniform, then tapered.
+Structure chain_of_beams(BeamTheory theory, bool rotary) {
+  Structure s;
+  BeamProperties uniform = beam_properties(theory, rotary);
+  uniform.material.damping_stiffness = 2e-5;
+  BeamProperties tapered = beam_properties(theory, rotary);
+  tapered.up = Eigen::Vector3d(0.2, -0.3, 1.0);
+  tapered.taper = [](double x) { return Section::rectangle(0.03 - 0.01 * x, 0.05 + 0.02 * x); };
+  const int a = add_node(s, "a", {0.1, 0.2, -0.1});
+  const int b = add_node(s, "b", {0.7, 0.5, 0.3});
+  const int c = add_node(s, "c", {0.9, -0.2, 0.5});
+  add_beam(s, a, b, 5, uniform);
+  add_beam(s, b, c, 5, tapered);
+  s.beams.add(a, c, 0, {0, 1, Eigen::Vector3d(0, 1, 0.3)});
+  return s;
+}
+
+TEST(MadeColumnsOfBodyTest, OfBeams) {
+  for (const BeamTheory theory : {BeamTheory::euler_bernoulli, BeamTheory::timoshenko}) {
+    for (const bool rotary : {false, true}) expect_same_matrices(chain_of_beams(theory, rotary));
+  }
+}
+
+TEST(MadeColumnsOfBodyTest, OfBeamsInAPlane) {
+  Structure s;
+  const int a = add_node(s, "a", {0.1, 0.2, 0});
+  const int b = add_node(s, "b", {0.7, 0.5, 0});
+  add_beam(s, a, b, 9, beam_properties(BeamTheory::timoshenko, true));
+  expect_same_matrices(s, spatial::Plane::xy);
+}
+
+TEST(MadeColumnsOfBodyTest, OfBarsMassesAndSpringsAmongSolidsAndShells) {
+  Structure s = frame_structure(beam_properties(BeamTheory::timoshenko, true), some_rotation());
+  const int foot = add_node(s, "foot", {0.5, 0.1, 0.3});
+  SpringBlock::Stiffness stiffness = SpringBlock::Stiffness::Zero();
+  stiffness.diagonal() << 1e5, 2e5, 3e5, 10, 20, 30;
+  stiffness(0, 4) = stiffness(4, 0) = 40;
+  s.springs.add(foot, 0, stiffness);
+  const int shell = s.shells.add_section(layered());
+  s.shells.add(std::array<int, 3>{foot, 0, 1}, shell);
+  const int top = add_node(s, "top", {0.4, 0.2, 1.3});
+  const int material = s.solids.add_material(crossed());
+  s.solids.add(SolidForm::usual(SolidKind::tet4), std::array<int, 4>{foot, 1, 0, top}, material);
+  s.masses.add(top, 0.3);
+  expect_same_matrices(s);
+}
+
+/// T of a mesh with nodes that follow one more node as a rigid body.
+SparseMatrix with_rigid_nodes(const FeModel& fe, const std::vector<int>& nodes) {
+  std::vector<Node> all = fe.nodes;
+  DofMap dofs = fe.dofs;
+  NodeLinks links;
+  links.rigid.push_back({"rigid nodes", static_cast<int>(all.size()), nodes});
+  all.push_back({"", {0.1, 0.2, 0.1}});
+  for (int& dof : dofs.node_dofs.emplace_back()) dof = dofs.num_dofs++;
+  SparseMatrix T = eliminate(all, dofs, links).T.topRows(fe.dofs.num_dofs);
+  T.makeCompressed();
+  return T;
+}
+
+TEST(MadeColumnsOfBodyTest, OfVariablesThatFollowOthers) {
+  Structure s;
+  add_box(s, {{0, 0, 0}, {0.4, 0.3, 0.2}, {12, 10, 10}}, crossed(),
+          SolidForm::usual(SolidKind::hex8));
+  distort(s, 0.002);
+  s.masses.add(5, 0.3);
+  const FeModel fe = assemble(s);
+  const MeshView mesh{fe.nodes, fe.dofs};
+  // Nodes of distant elements, and one between two that stay.
+  const SparseMatrix T = with_rigid_nodes(fe, {0, 1, 2, 40, 700, 1000});
+  const Following rows = T;
+  const auto n = static_cast<int>(T.cols());
+  const std::array<int, 5> runs = {0, n / 3 + 1, n / 2, n - 4, n};
+  const std::array<const SparseMatrix*, 3> matrices = {&fe.M.whole(), &fe.K.whole(),
+                                                       &fe.K_damping.whole()};
+  for (const MeshMatrix which : {MeshMatrix::mass, MeshMatrix::stiffness, MeshMatrix::damping}) {
+    const SparseMatrix expected = condensed(*matrices[static_cast<std::size_t>(which)], T);
+    for (std::size_t k = 0; k + 1 < runs.size(); ++k) {
+      const auto description =
+          description_of_columns(which, fe.blocks, mesh, runs[k], runs[k + 1], &rows);
+      expect_columns(made_columns(description, runs[k], runs[k + 1]), expected, runs[k]);
+    }
+  }
+}
 
 TEST(MadeColumnsOfBodyTest, KeepEachElementsMaterial) {
   Structure s;
@@ -102,7 +227,7 @@ TEST(MadeColumnsOfBodyTest, NeedAFewElementsMoreThanTheirShare) {
   const int n = fe.dofs.num_dofs;
   const auto bytes = [&](int first, int end) {
     return static_cast<double>(
-        description_of_columns(MeshMatrix::stiffness, s.solids, mesh, first, end).size());
+        description_of_columns(MeshMatrix::stiffness, fe.blocks, mesh, first, end).size());
   };
   // A layer of nodes more on each side, of seventeen.
   EXPECT_LT(bytes(n / 4, n / 2), (0.25 + 2.5 / 17) * bytes(0, n));
