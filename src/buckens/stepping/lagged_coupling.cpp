@@ -18,6 +18,9 @@ using Eigen::Vector3d;
 namespace {
 // Of a body's length: a thousandth of what rounding of its position is.
 constexpr double kNoMotion = 1e-19;
+// Share of what deformation adds to the inertia about an axis up to which a parabola through past
+// coupling loads, followed by two solves, does not make rounding grow: docs/theory/08-coupling.md.
+constexpr double kMostDeformed = 0.5;
 }  // namespace
 
 LaggedCoupling::LaggedCoupling(const body::Body& body, const BodyStepOperator& op)
@@ -37,11 +40,24 @@ void LaggedCoupling::start(const model::BodyState& s, int history, double t, Tas
   if (!s.terms.are_lagged()) {
     used_ = evaluated_ = {};
   } else if (history > 0) {
-    dynamics::extrapolate(s, history, scheme_.evaluation_time(t), used_, pool);
+    dynamics::extrapolate(s, known_instants(s, history), scheme_.evaluation_time(t), used_, pool);
   } else {
     dynamics::evaluate_coupling(*body_, s.terms, s.d, s.d_dot, s.d_ddot, s.frame.w, s.w_dot, used_,
                                 pool, common_);
   }
+}
+
+// How many past instants the coupling may be extrapolated from without making rounding grow.
+int LaggedCoupling::known_instants(const model::BodyState& s, int history) const {
+  if (!s.terms.eul_fe || !s.terms.quad_ref) return history;
+  const linalg::Matrix& patterns = body_->flexible->invariants.centrifugal_patterns();
+  const body::DeformedMoments all =
+      dynamics::frame_moments(*body_, s.terms, s.coupling.moments, patterns.transpose() * s.d,
+                              patterns.transpose() * s.d_dot);
+  const Eigen::LLT<Eigen::Matrix3d> whole(all.J);
+  if (whole.info() != Eigen::Success) return history;
+  const double share = whole.solve(s.coupling.moments.J).trace();
+  return share > kMostDeformed ? std::min(history, 1) : history;
 }
 
 LaggedCoupling::Sizes LaggedCoupling::compare_loads(TaskPool* pool) {

@@ -72,6 +72,7 @@ class LaggedCoupling {
   bool load_changed() const { return load_changed_; }
 
  private:
+  int known_instants(const model::BodyState& s, int history) const;
   struct Sizes {
     double change = 0, load = 0;  // squares
     double moved = 0;

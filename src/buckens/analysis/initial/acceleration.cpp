@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "buckens/analysis/initial/mixed_rounds.h"
 #include "buckens/base/errors.h"
 #include "buckens/body/body_lengths.h"
 #include "buckens/dynamics/coupling_terms.h"
@@ -25,6 +26,8 @@ namespace {
 
 constexpr int kMaxRounds = 100;
 constexpr double kSettled = 1e-13;
+// Frames and meshes that are coupled weakly have converged by then.
+constexpr int kPlainRounds = 20;
 
 /// Accelerations of one body, refined in rounds.
 struct BodyAcceleration {
@@ -44,11 +47,14 @@ class Accelerations {
 
   void run() {
     start();
+    MixedRounds mixed;
     for (int round = 0; round < kMaxRounds; ++round) {
+      const Vector begin = round < kPlainRounds ? Vector() : gather();
       if (solve_round() <= kSettled) {
         store();
         return;
       }
+      if (round >= kPlainRounds) scatter(mixed.mix(begin, gather()));
     }
     throw NumericalError(
         "the initial accelerations of frames and meshes do not converge: an initial deformation is "
@@ -189,6 +195,30 @@ class Accelerations {
     }
     lambda_ = X;
     return change / size;
+  }
+
+  /// All accelerations of a round, as those of displacements [m/s²].
+  Vector gather() const {
+    Eigen::Index size = 0;
+    for (const BodyAcceleration& body : bodies_) size += 6 + body.nodal.size();
+    Vector all(size);
+    Eigen::Index at = 0;
+    for (const BodyAcceleration& body : bodies_) {
+      all.segment<6>(at) = body.frame;
+      all.segment<3>(at) *= model_.length;
+      all.segment(at + 6, body.nodal.size()) = body.nodal.cwiseProduct(body.lengths);
+      at += 6 + body.nodal.size();
+    }
+    return all;
+  }
+  void scatter(const Vector& all) {
+    Eigen::Index at = 0;
+    for (BodyAcceleration& body : bodies_) {
+      body.frame = all.segment<6>(at);
+      body.frame.head<3>() /= model_.length;
+      body.nodal = all.segment(at + 6, body.nodal.size()).cwiseQuotient(body.lengths);
+      at += 6 + body.nodal.size();
+    }
   }
 
   /// Largest acceleration [m/s²], rotations by the model's length.
