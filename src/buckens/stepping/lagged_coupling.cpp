@@ -21,6 +21,9 @@ constexpr double kNoMotion = 1e-19;
 // Share of what deformation adds to the inertia about an axis up to which a parabola through past
 // coupling loads, followed by two solves, does not make rounding grow: docs/theory/08-coupling.md.
 constexpr double kMostDeformed = 0.5;
+// With less of the inertia without deformation it is less than kMostDeformed of the whole, too: about any axis
+// sqrt(J) >= sqrt(J0) - sqrt(J2), so that J >= 0.81 J0.
+constexpr double kHardlyDeformed = 0.01;
 }  // namespace
 
 LaggedCoupling::LaggedCoupling(const body::Body& body, const BodyStepOperator& op)
@@ -50,6 +53,9 @@ void LaggedCoupling::start(const model::BodyState& s, int history, double t, Tas
 // How many past instants the coupling may be extrapolated from without making rounding grow.
 int LaggedCoupling::known_instants(const model::BodyState& s, int history) const {
   if (!s.terms.eul_fe || !s.terms.quad_ref) return history;
+  const Eigen::LLT<Eigen::Matrix3d> undeformed(body_->J0);
+  if (undeformed.info() != Eigen::Success) return history;
+  if (undeformed.solve(s.coupling.moments.J).trace() < kHardlyDeformed) return history;
   const linalg::Matrix& patterns = body_->flexible->invariants.centrifugal_patterns();
   const body::DeformedMoments all =
       dynamics::frame_moments(*body_, s.terms, s.coupling.moments, patterns.transpose() * s.d,
