@@ -233,6 +233,7 @@ output: {every: 1 ms, sensors: {a: {joint-coordinate: a}, b: {joint-coordinate: 
     ("hinge-motor: {joint: shaft, angle: 1, stiffness: 5, speed: 1}", ["without `damping`"]),
     ("hinge-motor: {joint: shaft, speed: 1}", ["without `damping`", "`torque-limit`, which is missing", "`prescribed-rotation`"]),
     ("hinge-motor: {joint: shaft, speed: 1, torque: 2, torque-limit: 5}", ["applies whatever force is needed", "remove this key"]),
+    ("hinge-motor: {joint: shaft, speed: 9, damping: 2, power-limit: 50 W}", ["does not limit the torque at rest", "`torque-limit`"]),
     ("hinge-motor: {joint: shaft, angle: 1, return-time: 0.1}", ["without `stiffness`", "`torque-limit`, which is missing"]),
     ("hinge-motor: {joint: shaft, speed: 1, return-time: 0.1, torque-limit: 5}", ["no target `angle` to return to"]),
     ("hinge-motor: {joint: shaft, angle: 1, stiffness: 3, return-time: 0.1}", ["applies to a motor without gains"]),

@@ -125,6 +125,22 @@ def test_a_sampled_pid_is_the_discrete_transfer_function(sensors):
     assert abs(out["u"]).max() == pytest.approx(8)
 
 
+def test_steps_that_the_program_chooses_fit_the_samples(sensors):
+    """250 samples do not fit the hundred steps that a controlled run has at least; each was 0.4 steps."""
+    P, D, T, N, J = 30.0, 1.2, 0.002, 0.004, 0.05
+    angle, speed, x, exact = 0.0, 0.0, [0.0, 0.0, None], []
+    for _ in range(251):
+        exact.append((angle, speed))
+        held = pid(0.5 - angle, x, P, 0.0, D, T, N, math.inf)
+        angle, speed = angle + speed * T + 0.5 * T * T * held / J, speed + T * held / J
+    exact = numpy.array(exact)[::5]
+    block = f"u: {{pid: {{input: \"0.5 - angle\", proportional: {P}, derivative: {D}, filter: {N} s, sample: {T} s}}}}"
+    out = sensors(wheel([block], "torque: \"u\"", "auto", "method: newmark"))
+    # Constant forces are integrated exactly, whatever the step.
+    assert out["shaft.value"] == pytest.approx(exact[:, 0], abs=1e-9)
+    assert out["shaft.rate"] == pytest.approx(exact[:, 1], abs=1e-7)
+
+
 def test_a_pid_with_limits_does_not_wind_up(sensors):
     """Against an integration of the same equations by steps of 20 us."""
     P, I, D, N, J, limit, tracking = 30.0, 90.0, 1.2, 0.004, 0.05, 5.0, 0.1

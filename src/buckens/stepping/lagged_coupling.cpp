@@ -21,8 +21,8 @@ constexpr double kNoMotion = 1e-19;
 // Share of what deformation adds to the inertia about an axis up to which a parabola through past
 // coupling loads, followed by two solves, does not make rounding grow: docs/theory/08-coupling.md.
 constexpr double kMostDeformed = 0.5;
-// With less of the inertia without deformation it is less than kMostDeformed of the whole, too: about any axis
-// sqrt(J) >= sqrt(J0) - sqrt(J2), so that J >= 0.81 J0.
+// With less of the inertia without deformation it is less than kMostDeformed of the whole, too:
+// about any axis sqrt(J) >= sqrt(J0) - sqrt(J2), so that J >= 0.81 J0.
 constexpr double kHardlyDeformed = 0.01;
 }  // namespace
 

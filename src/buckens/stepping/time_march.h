@@ -14,11 +14,20 @@ namespace buckens::stepping {
 
 /// How far to go and how long steps may be.
 struct MarchSettings {
-  double duration = 0;                      ///< instant of the end [s]
-  double start = 0;                         ///< instant of the first step's beginning [s]
-  double given_step = 0;                    ///< taken as it is if longest_steps of it fill the run [s]
-  long longest_steps = 1;                   ///< number of longest steps from start to end
+  double duration = 0;     ///< instant of the end [s]
+  double start = 0;        ///< instant of the first step's beginning [s]
+  double given_step = 0;   ///< taken as it is if longest_steps of it fill the run [s]
+  long longest_steps = 1;  ///< number of longest steps from start to end
   std::optional<ErrorTolerance> tolerance;  ///< controls the step; none: the longest throughout
+};
+
+/// Instants as multiples of the longest step, which is step / parts [s].
+struct TimeGrid {
+  double start = 0;  ///< [s]
+  double first = 0;  ///< steps before the first one of the march
+  double step = 0, parts = 1;
+
+  double at(double steps) const { return start + (first + steps) * step / parts; }
 };
 
 /// Steps of one length that were accepted.
@@ -104,7 +113,8 @@ class TimeMarch {
   bool has_begun_ = false;
   bool has_restarted_ = false;  ///< at the end of the last step
   int k_ = 0;
-  double spread_ = 0;         ///< time whose share of the tolerance the next step may use [s]
+  double spread_ = 0;  ///< time whose share of the tolerance the next step may use [s]
+  TimeGrid grid_;
   long ticks_ = 0, end_ = 0;  ///< multiples of the shortest step
   MarchReport report_;
   bool has_rigid_rows_ = false;

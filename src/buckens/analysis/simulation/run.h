@@ -71,6 +71,7 @@ class SimulationRun {
   using Clock = std::chrono::steady_clock;
 
   void check_method();
+  void fit_to_samples(stepping::MarchSettings& march) const;
   void check_samples() const;
   void begin_march(double start);
   void set_up();

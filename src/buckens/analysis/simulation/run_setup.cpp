@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a run checks and prepares before its first step.
+#include <algorithm>
 #include <cmath>
 #include <exception>
 
@@ -78,6 +79,19 @@ void SimulationRun::check_method() {
   }
 }
 
+/// Where the model gives no longest step, the shortest sample time is a whole number of it.
+void SimulationRun::fit_to_samples(stepping::MarchSettings& march) const {
+  if (!march.tolerance || spec_.step) return;
+  double shortest = HUGE_VAL;
+  for (const model::Signal& signal : built_.model.signals.all) {
+    if (signal.is_sampled()) shortest = std::min(shortest, signal.block->sample_time());
+  }
+  const double samples = std::round((march.duration - march.start) / shortest);
+  if (!(samples >= 1.0 && std::isfinite(samples))) return;
+  const double steps_of_one = std::ceil(static_cast<double>(march.longest_steps) / samples);
+  march.longest_steps = std::lround(steps_of_one * samples);
+}
+
 /// Sampled signals are read at the ends of steps.
 void SimulationRun::check_samples() const {
   const double step = march_->longest_step();
@@ -106,7 +120,8 @@ void SimulationRun::check_samples() const {
 /// Factorises for a grid of steps from this instant to the end.
 void SimulationRun::begin_march(double start) {
   march_start_ = start;
-  const stepping::MarchSettings march = march_settings(spec_, start);
+  stepping::MarchSettings march = march_settings(spec_, start);
+  fit_to_samples(march);
   stepping::StepSettings settings = step_settings(spec_);
   settings.threads = options_.threads;
   settings.exchange = options_.exchange;

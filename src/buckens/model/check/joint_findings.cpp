@@ -227,6 +227,13 @@ Found motor_problem(const loads::MotorSpec& spec, bool turns) {
         fmt::format("a gain on the {0} needs a target `{0}`, for example {0}: 0", position)};
   }
   if (spec.is_exact()) return exact_motor_problem(spec, turns);
+  if (spec.power && !spec.limit) {
+    return Finding{"power-limit",
+                   fmt::format("a power does not limit the {} at rest, where none is delivered; "
+                               "give the largest {} of the motor, too, as `{}`",
+                               turns ? "torque" : "force", turns ? "torque" : "force",
+                               turns ? "torque-limit" : "force-limit")};
+  }
   if (spec.speed && spec.damping.is_number(0.0)) {
     return Finding{
         speed,
