@@ -13,7 +13,8 @@ struct Projected {
   double whole = 0;    // with the outer damper
   double strain = 0;   // after rest has followed
   bool is_cut = false;
-  int damper_limit = 0;  // 1: the damper pushes with the force of the spring, −1: against it
+  bool has_broken = false;  // the spring of a yielding law was strained beyond what its set admits
+  int damper_limit = 0;     // 1: the damper pushes with the force of the spring, −1: against it
 };
 
 Projected project(const ProjectedForce& law, double rate) {
@@ -34,6 +35,12 @@ Projected project(const ProjectedForce& law, double rate) {
   out.whole += out.bounded;
   if (out.is_cut && law.is_yielding) {
     out.strain = law.stiffness > 0.0 ? -out.bounded / law.stiffness : 0.0;
+  } else if (law.is_yielding && law.stiffness > 0.0) {
+    // A coordinate that has turned round within a long step has a damper that makes up for any
+    // strain. The spring has broken away all the same.
+    out.strain = std::clamp(law.strain, -std::max(law.highest, 0.0) / law.stiffness,
+                            -std::min(law.lowest, 0.0) / law.stiffness);
+    out.has_broken = out.strain != law.strain;
   }
   return out;
 }
@@ -83,7 +90,7 @@ CoordinateResponse CoordinateLaw::answer(const Sight& sight) const {
     return out;
   }
   // If rest follows, the spring stays as strained as it is: all power is dissipated.
-  const bool is_straining = law.is_on && !(f.is_cut && law.is_yielding);
+  const bool is_straining = law.is_on && !f.has_broken && !(f.is_cut && law.is_yielding);
   out.stored_energy = 0.5 * law.stiffness * f.strain * f.strain;
   const double stored_rate = is_straining ? law.stiffness * f.strain * rate : 0.0;
   out.active_power = f.whole * rate + stored_rate;

@@ -151,6 +151,31 @@ TEST(JointFriction, WithoutItsSetItWouldStick) {
   EXPECT_EQ(stop.unlimited(sled.at(0.21, -1)).stiffness, 0);
 }
 
+TEST(JointFriction, SpringBreaksAwayWhereItsDamperMakesUpForTheStrain) {
+  // Within a long step it has gone back by 50 slips and turned round: spring and damper alone are
+  // 50 times the bound each and cancel out.
+  FrictionData data;
+  data.static_coefficient = data.dynamic_coefficient = 0.3;
+  data.preload = 2;
+  data.slip = 1e-3;
+  data.radius = 1;
+  data.inertia = 0.5;
+  const JointFriction friction(data, Vector3d::UnitX());
+  const double bound = 0.3 * 10 + 2, damping = 2 * std::sqrt(bound / 1e-3 * 0.5);
+  Sled sled;
+  auto sight = sled.at(0, 50.5 * bound / damping, -50e-3);
+  sight.reaction.force = Vector3d(0, 6, 8);
+  const Action action = friction.respond(sight);
+  // 1e-11: rounding of 250 N.
+  EXPECT_NEAR(action.along_coordinate, -0.5 * bound, 1e-11);
+  // No more than a spring bent by its slip holds, and no more than the force takes.
+  EXPECT_DOUBLE_EQ(action.stored_energy, 0.5 * bound * 1e-3);
+  EXPECT_NEAR(action.dissipation, 0.5 * bound * sight.coordinate.rate, 1e-10);
+  double next = 0;
+  friction.find_states(sight, &next);
+  EXPECT_DOUBLE_EQ(next, -1e-3);
+}
+
 TEST(JointFriction, WeighsForcesAndMomentsByTheirLevers) {
   FrictionData data;
   data.static_coefficient = 0.2;
