@@ -3,6 +3,7 @@
 
 import json
 import signal
+import subprocess
 import time
 
 import h5py
@@ -70,6 +71,19 @@ def test_a_second_signal_ends_it_at_once(start, models, tmp_path):
     process.send_signal(signal.SIGCONT)
     process.communicate(timeout=60)
     assert process.returncode in (-signal.SIGINT, -signal.SIGTERM)
+
+
+def test_a_signal_that_the_parent_passes_on_is_the_same_request(start, models, tmp_path):
+    """Ctrl-C at a terminal reaches the program and its parent, which may send it on."""
+    process = start("run", models / "endless.yaml", "-o", "out")
+    wait_for_records(process, tmp_path / "out")
+    process.send_signal(signal.SIGSTOP)  # so that both wait for it together
+    process.send_signal(signal.SIGINT)
+    subprocess.run(["sh", "-c", f"kill -TERM {process.pid}"], check=True)  # somebody else
+    process.send_signal(signal.SIGCONT)
+    process.communicate(timeout=60)
+    assert process.returncode == INTERRUPTED
+    check_ended_in_order(tmp_path / "out")
 
 
 def test_ignored_signals_stay_ignored(start, models, tmp_path):

@@ -5,8 +5,11 @@ import json
 import logging
 import os
 import pathlib
+import signal
 import subprocess
 import sys
+import threading
+import time
 import urllib.error
 import urllib.request
 import webbrowser
@@ -104,6 +107,35 @@ def test_a_run_starts_from_a_saved_state(crank, tmp_path):
     assert np.array_equal(sim.bodies["rod"].displacements, long.bodies["rod"].displacements)
     with pytest.raises(buckens.InputError, match="until: expected a number, found '7 ms'"):
         buckens.Simulation.resume(tmp_path / "half.h5", crank, until="7 ms")
+
+
+@pytest.fixture
+def heed_ctrl_c():
+    """Jobs in the background ignore it, and so do their tests."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_ctrl_c_that_reaches_only_python_ends_a_run(tmp_path, heed_ctrl_c):
+    """As notebooks send it: to the kernel, not to its children."""
+    # Unless it is ended, it takes half a minute on a fast machine.
+    model = buckens.load(source("tests/models/endless.yaml"), set={"simulation.duration": 3000})
+    watch = threading.Thread(target=interrupt_at_records, args=(tmp_path / "out",))
+    watch.start()
+    with pytest.raises(KeyboardInterrupt):
+        buckens.run(model, tmp_path / "out")
+    watch.join()
+    run = buckens.open(tmp_path / "out")
+    assert run.status == "interrupted" and 0 < run.summary["end_time"] < 3000
+
+
+def interrupt_at_records(out):
+    deadline = time.monotonic() + 60
+    sensors = out / "sensors.csv"
+    while time.monotonic() < deadline and (not sensors.exists() or sensors.read_text().count("\n") < 5):
+        time.sleep(0.02)
+    os.kill(os.getpid(), signal.SIGINT)
 
 
 def test_a_run_states_its_errors(crank, tmp_path):

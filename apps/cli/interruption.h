@@ -9,6 +9,9 @@ namespace buckens::cli {
 /// While it lives, the first Ctrl-C (SIGINT), SIGTERM or SIGHUP only requests a stop; the second
 /// one ends the program at once.
 ///
+/// The parent process may pass on a Ctrl-C that the terminal has sent to both: one signal from the
+/// parent and one from elsewhere are the same request.
+///
 /// Signals that were ignored when the program started (nohup, background jobs) stay ignored. Only
 /// one object at a time.
 class Interruption {

@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import tempfile
 from contextlib import contextmanager
@@ -103,9 +104,24 @@ def call(verb: str, arguments: Sequence[str]) -> Dict[str, Any]:
         try:
             out, err = process.communicate()
         except KeyboardInterrupt:
-            process.communicate()
+            _interrupt(process)
             raise
     return answer_of(process.returncode, out, err)
+
+
+def _interrupt(process: subprocess.Popen[str]) -> None:
+    """Passes on Ctrl-C, which notebooks send to Python only, and waits until the program has completed its files.
+
+    It does not matter if the terminal has sent it to both: the program takes one from its parent and one from elsewhere
+    as the same. A further Ctrl-C ends the program at once.
+    """
+    while True:
+        process.send_signal(signal.SIGINT)
+        try:
+            process.communicate()
+            return
+        except KeyboardInterrupt:
+            continue
 
 
 def answer_of(code: int, out: str, err: str) -> Dict[str, Any]:
