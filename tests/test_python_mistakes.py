@@ -97,6 +97,45 @@ def test_names_of_markers():
         buckens.check(model)
 
 
+def test_functions_are_checked_at_once(sim):
+    model = buckens.Model.from_dict(TREE)
+    for owner in (model, sim):
+        with pytest.raises(buckens.InputError, match="force on 'cart': expected a function, found 5"):
+            owner.force("cart")(5)
+        with pytest.raises(buckens.InputError, match='force: expected a name, found the function .push.; write @.*force."rod/end"'):
+            @owner.force
+            def push(t, x, v):
+                return 0, 0, 0
+        with pytest.raises(buckens.InputError, match="force: expected a name, found 3"):
+            owner.force(3)
+        with pytest.raises(buckens.InputError, match="force: name: expected a name, found 3"):
+            owner.force("cart", name=3)
+        with pytest.raises(buckens.InputError, match=r"signal: expected a name, found the function 'angle'; write @.*signal\(\)"):
+            @owner.signal
+            def angle(t):
+                return 0
+    assert not model._forces and not model._signals and sim.time == 0
+
+
+def test_a_wrong_function_is_dropped(sim):
+    @sim.force("cart")
+    def sound(t, x, v):
+        return 4, 0, 0
+
+    assert sim.time == 0
+
+    @sim.force("cart/tpo")
+    def push(t, x, v):
+        return 0, 0, 0
+
+    with pytest.raises(buckens.Error, match="tpo.*top.*dropped from the simulation: force 'push' on 'cart/tpo'"):
+        sim.time
+    # The simulation is as it was before, with the force that was right.
+    assert sim.time == 0
+    sim.run()
+    assert sim.sensors["place"][0] == pytest.approx(0.5 * (1 + 4) / 2 * 0.01 ** 2, rel=1e-9)
+
+
 def test_files(tmp_path):
     with pytest.raises(buckens.IoError, match="nothing.yaml"):
         buckens.load(tmp_path / "nothing.yaml")

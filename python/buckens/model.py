@@ -4,16 +4,15 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Callable, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, List, Mapping, Optional, Sequence, Union
 
 from . import _core
 from .messages import tell_messages
 from .model_files import ModelFiles
-from .signal_function import GivenSignal, SignalFunction, given_signal
+from .signal_function import (ForceFunction, GivenForce, GivenSignal, SignalFunction, given_force, given_signal,
+                              require_text)
 from .yaml_text import _flow, to_yaml
 
-#: f(t, x, v): time [s], position [m] and velocity [m/s] of the marker; returns a force [N].
-ForceFunction = Callable[..., Sequence[float]]
 Overrides = Union[Mapping[str, Any], Sequence[str], None]
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -56,7 +55,7 @@ class Model:
         self._take(_parse(keys, ".", files), files)
 
     def _take(self, core: _core.Model, files: ModelFiles,
-              forces: Sequence[Tuple[str, str, ForceFunction]] = (),
+              forces: Sequence[GivenForce] = (),
               signals: Sequence[GivenSignal] = ()) -> None:
         self._core = core
         self._files = files
@@ -65,7 +64,7 @@ class Model:
 
     @classmethod
     def _of(cls, core: _core.Model, files: ModelFiles,
-            forces: Sequence[Tuple[str, str, ForceFunction]] = (),
+            forces: Sequence[GivenForce] = (),
             signals: Sequence[GivenSignal] = ()) -> Model:
         out = cls.__new__(cls)
         out._take(core, files, forces, signals)
@@ -124,9 +123,12 @@ class Model:
             Name of the load in the results; by default that of the function.
         """
 
+        require_text("force", marker, 'model.force("rod/end")')
+        if name is not None:
+            require_text("force: name", name, f'model.force({marker!r}, name="push")')
+
         def add(function: ForceFunction) -> ForceFunction:
-            load = name or str(getattr(function, "__name__", "force"))
-            self._forces.append((load, marker, function))
+            self._forces.append(given_force(function, marker, name))
             return function
 
         return add
@@ -155,6 +157,9 @@ class Model:
         ... def command(t, angle, speed):
         ...     return 20 * (0.5 - angle) - 3 * speed
         """
+
+        if name is not None:
+            require_text("signal", name, "model.signal()")
 
         def add(function: SignalFunction) -> SignalFunction:
             self._signals.append(given_signal(function, name, inputs))

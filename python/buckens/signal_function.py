@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Functions that compute the values of signals."""
+"""Functions that compute forces and the values of signals."""
 
 from __future__ import annotations
 
@@ -8,6 +8,10 @@ from typing import Callable, List, Optional, Sequence, Tuple
 
 from .errors import InputError
 
+#: f(t, x, v): time [s], position [m] and velocity [m/s] of the marker; returns a force [N].
+ForceFunction = Callable[..., Sequence[float]]
+#: Name of the load, marker, and the function.
+GivenForce = Tuple[str, str, ForceFunction]
 #: f(t, ...): time [s] and the values of signals; returns a number.
 SignalFunction = Callable[..., float]
 #: Name of the signal, names of its inputs, and the function.
@@ -23,14 +27,34 @@ def given_signal(function: SignalFunction, name: Optional[str],
     InputError
         If it is not callable, or its parameters do not define the inputs.
     """
-    if not callable(function):
-        raise InputError(f"signal: expected a function, found {function!r}")
+    require_function("signal", function)
     signal = name or str(getattr(function, "__name__", "signal"))
     if inputs is None:
         return signal, _parameters(function, signal), function
     if isinstance(inputs, str):
         raise InputError(f"signal {signal!r}: inputs are a list of names, found {inputs!r}; write [{inputs!r}]")
     return signal, [str(one) for one in inputs], function
+
+
+def require_function(what: str, function: object) -> None:
+    """Raises an error that names the purpose unless a function is given."""
+    if not callable(function):
+        raise InputError(f"{what}: expected a function, found {function!r}")
+
+
+def require_text(what: str, text: object, example: str) -> None:
+    """Raises an error unless a name is given, as when a decorator is written without parentheses."""
+    if callable(text):
+        found = getattr(text, "__name__", repr(text))
+        raise InputError(f"{what}: expected a name, found the function {found!r}; write @{example} above it")
+    if not isinstance(text, str):
+        raise InputError(f"{what}: expected a name, found {text!r}; write @{example}")
+
+
+def given_force(function: ForceFunction, marker: str, name: Optional[str]) -> GivenForce:
+    """Returns the name, the marker and the function of a force; it must be callable."""
+    require_function(f"the force on {marker!r}", function)
+    return name or str(getattr(function, "__name__", "force")), marker, function
 
 
 def _parameters(function: SignalFunction, signal: str) -> List[str]:

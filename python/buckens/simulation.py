@@ -7,17 +7,17 @@ import json
 import os
 import sys
 import weakref
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _core
 from .curve import Curve
-from .errors import InputError
+from .errors import Error, InputError
 from .messages import tell_messages
-from .model import ForceFunction, Model, PathLike
+from .model import Model, PathLike
 from .present import Array, Bodies, Signals, Values
-from .signal_function import SignalFunction, given_signal
+from .signal_function import ForceFunction, SignalFunction, given_force, given_signal, require_function, require_text
 
 Progress = Union[bool, Callable[[float, float, int], object]]
 
@@ -51,8 +51,9 @@ class Simulation:
         if not isinstance(model, Model):
             raise InputError(f"expected a buckens.Model, found {model!r}; buckens.load reads one")
         self._model = model
-        self._forces: List[Tuple[str, str, ForceFunction]] = list(model._forces)
+        self._forces = list(model._forces)
         self._signals = list(model._signals)
+        self._num_sound = (len(self._forces), len(self._signals))  # with which it was set up
         self._callbacks: List[Callable[[], object]] = []
         if not isinstance(threads, int) or not 1 <= threads <= 256:
             raise InputError(f"threads: expected a whole number from 1 to 256, found {threads!r}")
@@ -109,9 +110,24 @@ class Simulation:
             if self._is_preparing:
                 raise InputError("the simulation is being set up, which is within a step; a force "
                                  "function can use its arguments only")
-            self._prepare()
+            try:
+                self._prepare()
+            except Exception as error:
+                dropped = self._drop_added()
+                if isinstance(error, Error):
+                    error.args = (f"{error}; dropped from the simulation: {dropped}",)
+                raise
             assert self._core_now is not None
+            self._num_sound = (len(self._forces), len(self._signals))
         return self._core_now
+
+    def _drop_added(self) -> str:
+        """Removes the functions with which the simulation could not be set up, and names them."""
+        forces, signals = self._num_sound
+        names = [f"force {load!r} on {marker!r}" for load, marker, _ in self._forces[forces:]]
+        names += [f"function of signal {signal!r}" for signal, _, _ in self._signals[signals:]]
+        del self._forces[forces:], self._signals[signals:]
+        return ", ".join(names)
 
     # ---- advance
     def step(self) -> bool:
@@ -176,8 +192,7 @@ class Simulation:
         An exception in the function ends the run after this step, and the call that advances the
         simulation raises it.
         """
-        if not callable(function):
-            raise InputError(f"on_step: expected a function, found {function!r}")
+        require_function("on_step", function)
         myself = weakref.ref(self)
 
         def call() -> None:
@@ -198,10 +213,14 @@ class Simulation:
         for large models :meth:`buckens.Model.force` avoids that.
         """
 
+        require_text("force", marker, 'sim.force("rod/end")')
+        if name is not None:
+            require_text("force: name", name, f'sim.force({marker!r}, name="push")')
+
         def add(function: ForceFunction) -> ForceFunction:
+            given = given_force(function, marker, name)
             self._require_new(f"the force on {marker!r}")
-            load = name or str(getattr(function, "__name__", "force"))
-            self._forces.append((load, marker, function))
+            self._forces.append(given)
             self._core_now = None
             return function
 
@@ -213,6 +232,9 @@ class Simulation:
 
         Use it before the simulation takes a step or hands out arrays, as :meth:`force`.
         """
+
+        if name is not None:
+            require_text("signal", name, "sim.signal()")
 
         def add(function: SignalFunction) -> SignalFunction:
             given = given_signal(function, name, inputs)
