@@ -38,6 +38,28 @@ def sim():
     return buckens.Simulation(buckens.Model.from_dict(TREE))
 
 
+def test_a_dictionary_or_a_path_is_a_model(tmp_path):
+    model = buckens.Model.from_dict(TREE)
+    model.save(tmp_path / "cart.yaml")
+    given = [model, TREE, str(tmp_path / "cart.yaml"), tmp_path / "cart.yaml"]
+    ends = set()
+    for one in given:
+        sim = buckens.Simulation(one)
+        sim.run()
+        ends.add(sim.sensors["place"].tobytes())
+        sim.save(tmp_path / "end")
+        assert buckens.Simulation.resume(tmp_path / "end", one, until=20e-3).end_time == 20e-3
+        assert buckens.check(one)["bodies"] == buckens.check(model)["bodies"]
+    assert len(ends) == 1
+    buckens.run(TREE, tmp_path / "out")
+    assert buckens.open(tmp_path / "out").title == "Cart"
+    assert buckens.Model(TREE).to_yaml() == buckens.load(TREE).to_yaml() == model.to_yaml()
+    assert buckens.Simulation(buckens.load(TREE, set={"simulation.duration": "5 ms"})).end_time == 5e-3
+    table = {"simulation.duration": [5e-3]}
+    assert [row["status"] for row in buckens.sweep(TREE, table, tmp_path / "sweep")["variants"]] == ["done"]
+    assert [row["status"] for row in buckens.sweep(TREE, table, tmp_path / "study", executor=1)["variants"]] == ["done"]
+
+
 def test_callbacks_may_add_others(sim):
     calls = []
 
@@ -149,8 +171,17 @@ def test_files(tmp_path):
         buckens.load(source("examples/slider_crank/slider_crank.yaml"), set={"simulation.stp": 1})
     with pytest.raises(buckens.IoError, match="no results.h5.*buckens run"):
         buckens.open(tmp_path)
-    with pytest.raises(buckens.InputError, match="buckens.load reads one"):
+    with pytest.raises(buckens.InputError, match="wrong.yaml:3:.*bodies.rod.rigid.mass"):
         buckens.Simulation(str(tmp_path / "wrong.yaml"))
+    for take in (buckens.Simulation, buckens.check):
+        with pytest.raises(buckens.InputError, match="expected a buckens.Model, a dictionary or the path of a model file, found 5"):
+            take(5)
+    with pytest.raises(buckens.InputError, match="load: expected the path of a model file or a dictionary, found 5"):
+        buckens.load(5)
+    with pytest.raises(buckens.InputError, match="Model: expected a dictionary.*found 'wrong.yaml'; buckens.load reads a file"):
+        buckens.Model("wrong.yaml")
+    with pytest.raises(buckens.InputError, match="Model: a dictionary and the keys title; put them into the dictionary"):
+        buckens.Model(TREE, title="Cart")
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "thesis.tex").write_text("years of work")
     with pytest.raises(buckens.IoError, match="mine"):

@@ -7,6 +7,7 @@ import os
 from typing import Any, Callable, List, Mapping, Optional, Sequence, Union
 
 from . import _core
+from .errors import InputError
 from .messages import tell_messages
 from .model_files import ModelFiles
 from .signal_function import (ForceFunction, GivenForce, GivenSignal, SignalFunction, given_force, given_signal,
@@ -15,6 +16,8 @@ from .yaml_text import _flow, to_yaml
 
 Overrides = Union[Mapping[str, Any], Sequence[str], None]
 PathLike = Union[str, "os.PathLike[str]"]
+#: A model, a dictionary with the keys of a model file, or the path of one.
+ModelLike = Union["Model", Mapping[str, Any], PathLike]
 
 
 def overrides_of(changes: Overrides) -> List[str]:
@@ -33,6 +36,8 @@ class Model:
 
     Parameters
     ----------
+    tree
+        The model as a dictionary, in place of ``keys``; see :meth:`from_dict`.
     **keys
         Keys of a model file: ``bodies``, ``joints``, ``loads``, ``simulation``, ... Hyphens are not
         converted to underscores: pass such keys to :meth:`from_dict`. Values are numbers in SI units,
@@ -50,7 +55,14 @@ class Model:
     ...               simulation={"duration": "1 s", "step": "1 ms"})
     """
 
-    def __init__(self, **keys: Any) -> None:
+    def __init__(self, tree: Optional[Mapping[str, Any]] = None, /, **keys: Any) -> None:
+        if tree is not None:
+            if not isinstance(tree, Mapping):
+                raise InputError(f"Model: expected a dictionary or keys of a model file, found {tree!r}; buckens.load "
+                                 "reads a file")
+            if keys:
+                raise InputError(f"Model: a dictionary and the keys {', '.join(keys)}; put them into the dictionary")
+            keys = dict(tree)
         files = ModelFiles()
         self._take(_parse(keys, ".", files), files)
 
@@ -230,13 +242,13 @@ def _parse(tree: Mapping[str, Any], directory: PathLike, files: ModelFiles) -> _
     return _core.Model.parse(text, os.path.join(place, "model.yaml"), [], True)
 
 
-def load(path: PathLike, set: Overrides = None) -> Model:  # noqa: A002 (the program's word)
+def load(path: Union[PathLike, Mapping[str, Any]], set: Overrides = None) -> Model:  # noqa: A002 (the program's word)
     """Reads a model file.
 
     Parameters
     ----------
     path
-        A model file in YAML or JSON.
+        A model file in YAML or JSON, or a dictionary with its contents.
     set
         Values to replace, ``{"bodies.rod.beam.elements": 32, "parameters.L": "280 mm"}``, as for the
         option `--set`.
@@ -248,6 +260,20 @@ def load(path: PathLike, set: Overrides = None) -> Model:  # noqa: A002 (the pro
     IoError
         If a file cannot be read.
     """
+    if isinstance(path, Mapping):
+        model = Model.from_dict(path)
+        return model.with_changes(set) if set else model
+    if not isinstance(path, (str, os.PathLike)):
+        raise InputError(f"load: expected the path of a model file or a dictionary, found {path!r}")
     model = Model._of(_core.Model.read(os.fspath(path), overrides_of(set)), ModelFiles())
     tell_messages()
     return model
+
+
+def model_of(model: ModelLike) -> Model:
+    """Returns a model as it is, and reads any other: a dictionary or a file."""
+    if isinstance(model, Model):
+        return model
+    if isinstance(model, (str, os.PathLike, Mapping)):
+        return load(model)
+    raise InputError(f"expected a buckens.Model, a dictionary or the path of a model file, found {model!r}")

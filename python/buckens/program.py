@@ -11,13 +11,11 @@ import signal
 import subprocess
 import tempfile
 from contextlib import contextmanager
-from typing import Any, Dict, Iterator, List, Sequence, Union
+from typing import Any, Dict, Iterator, List, Sequence
 
 from . import errors
 from .messages import logger
-from .model import Model, Overrides, PathLike, overrides_of
-
-ModelLike = Union[Model, PathLike]
+from .model import Model, ModelLike, Overrides, model_of, overrides_of
 
 _KINDS = {"usage": errors.InputError, "input": errors.InputError, "model": errors.ModelError,
           "numerical": errors.NumericalError, "io": errors.IoError, "memory": MemoryError}
@@ -51,9 +49,10 @@ def find_program() -> str:
 @contextmanager
 def file_of(model: ModelLike) -> Iterator[str]:
     """Provides a file with the model, and removes it afterwards if it was created here."""
-    if not isinstance(model, Model):
+    if isinstance(model, (str, os.PathLike)):
         yield os.fspath(model)
         return
+    model = model_of(model)
     if model._forces:
         raise errors.InputError(f"the model has the function {model._forces[0][0]!r} as a force, which "
                                 "the program cannot call; simulate it with buckens.Simulation")

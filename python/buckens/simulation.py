@@ -15,7 +15,7 @@ from . import _core
 from .curve import Curve
 from .errors import Error, InputError
 from .messages import tell_messages
-from .model import Model, PathLike
+from .model import Model, ModelLike, PathLike, model_of
 from .present import Array, Bodies, Signals, Values
 from .signal_function import ForceFunction, SignalFunction, given_force, given_signal, require_function, require_text
 
@@ -31,7 +31,8 @@ class Simulation:
     Parameters
     ----------
     model
-        The model; it needs a ``simulation`` section.
+        A :class:`buckens.Model`, a dictionary with the keys of a model file, or the path of one; it needs a
+        ``simulation`` section.
     out
         Directory for results (see :func:`buckens.open`); None writes no files.
     threads
@@ -41,15 +42,14 @@ class Simulation:
 
     Examples
     --------
-    >>> sim = Simulation(load("slider_crank.yaml"))                   # doctest: +SKIP
+    >>> sim = Simulation("slider_crank.yaml")                         # doctest: +SKIP
     >>> while sim.step():                                             # doctest: +SKIP
     ...     print(sim.time, sim.sensors["mid"])
     """
 
-    def __init__(self, model: Model, out: Optional[PathLike] = None, threads: int = 1,
+    def __init__(self, model: ModelLike, out: Optional[PathLike] = None, threads: int = 1,
                  record: bool = True, *, _start_from: str = "") -> None:
-        if not isinstance(model, Model):
-            raise InputError(f"expected a buckens.Model, found {model!r}; buckens.load reads one")
+        model = model_of(model)
         self._model = model
         self._forces = list(model._forces)
         self._signals = list(model._signals)
@@ -64,7 +64,7 @@ class Simulation:
         self._prepare()
 
     @classmethod
-    def resume(cls, path: PathLike, model: Model, out: Optional[PathLike] = None, threads: int = 1,
+    def resume(cls, path: PathLike, model: ModelLike, out: Optional[PathLike] = None, threads: int = 1,
                record: bool = True, *, until: Optional[float] = None) -> Simulation:
         """Continues from a state saved by :meth:`save`, with bit-identical results.
 
@@ -85,7 +85,7 @@ class Simulation:
             If the file cannot be read or is damaged.
         """
         if until is not None:
-            model = model.with_changes({"simulation.duration": _number("until", until)})
+            model = model_of(model).with_changes({"simulation.duration": _number("until", until)})
         return cls(model, out, threads, record, _start_from=os.fspath(path))
 
     def _prepare(self) -> None:

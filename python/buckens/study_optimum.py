@@ -9,8 +9,7 @@ from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional
 import numpy as np
 
 from .errors import InputError
-from .model import Overrides, PathLike
-from .program import ModelLike
+from .model import ModelLike, Overrides, PathLike
 from .study_distributions import Array, Distribution, distributions_of
 from .study_effects import results
 from .study_sampling import Samples

@@ -14,8 +14,8 @@ from typing import Any, Deque, Dict, List, Optional, Tuple
 from . import _core
 from .errors import Error, InputError, IoError
 from .messages import tell_messages
-from .model import Model, Overrides, PathLike, overrides_of
-from .program import ModelLike, file_of
+from .model import ModelLike, Overrides, PathLike, model_of, overrides_of
+from .program import file_of
 from .study_journal import FOLDER, StudyJournal, hold, key_of, replace_file, unfinished_of
 from .study_progress import Progress, ProgressDisplay
 from .study_tables import TableLike, VariantTable, table_of
@@ -235,8 +235,9 @@ def sweep_on(executor: ExecutorLike, model: ModelLike, table: TableLike, out: Pa
 
 def _lasting(model: ModelLike, folder: pathlib.Path) -> str:
     """Returns the model file; writes a model in memory next to the results, where workers can read it."""
-    if not isinstance(model, Model):
+    if isinstance(model, (str, os.PathLike)):
         return os.path.abspath(model)
+    model = model_of(model)
     with file_of(model) as file:
         text = pathlib.Path(file).read_text(encoding="utf-8")
     replace_file(folder / "model.yaml", model._files.write_beside(str(folder), text, is_absolute=True))

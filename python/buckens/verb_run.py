@@ -6,8 +6,8 @@ from __future__ import annotations
 import os
 from typing import Any, Dict, Optional
 
-from .model import Model, Overrides, PathLike
-from .program import ModelLike, call, changes_of, file_of, options_of
+from .model import Model, ModelLike, Overrides, PathLike, model_of
+from .program import call, changes_of, file_of, options_of
 from .simulation import keep_files
 
 
@@ -21,6 +21,8 @@ def run(model: ModelLike, out: PathLike, set: Overrides = None, *, error: bool =
 
     Parameters
     ----------
+    model
+        A :class:`buckens.Model`, a dictionary with the keys of a model file, or the path of one.
     out
         Directory for results, see :func:`buckens.open`. An existing run in it is replaced.
     error
@@ -47,6 +49,8 @@ def run(model: ModelLike, out: PathLike, set: Overrides = None, *, error: bool =
     KeyboardInterrupt
         After Ctrl-C, once the files are complete; :func:`buckens.continue_run` continues the run.
     """
+    if not isinstance(model, (str, os.PathLike)):
+        model = model_of(model)
     try:
         with file_of(model) as path:
             return call("run", [path, *options_of(out=out, error=error, threads=threads, factors=factors,

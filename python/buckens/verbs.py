@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The program's commands as functions, with its options and the output of `--json`.
 
-docs/reference/command-line.md describes the dictionaries. A model is a :class:`buckens.Model` or the name of a
-model file.
+docs/reference/command-line.md describes the dictionaries. A model is a :class:`buckens.Model`, a
+dictionary with the keys of a model file, or the path of one.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 from .errors import InputError
 from .live_page import LivePage
-from .model import Overrides, PathLike
-from .program import ModelLike, call, changes_of, file_of, options_of
+from .model import ModelLike, Overrides, PathLike
+from .program import call, changes_of, file_of, options_of
 from .study_progress import ProgressLike
 from .study_runs import sweep_on
 from .study_tables import TableLike, is_frame, ranges_of, write_frame
