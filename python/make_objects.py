@@ -16,6 +16,8 @@ HEAD = '''# SPDX-License-Identifier: Apache-2.0
 
 from __future__ import annotations
 
+import difflib
+import inspect
 from typing import Any, Dict, Mapping, Optional, Sequence, Union
 
 #: A number in SI units, or a text with a unit or expression.
@@ -24,6 +26,17 @@ Quantity = Union[float, str]
 
 class Part:
     """Part of a model: the keys of a model file as arguments. See :meth:`to_tree`."""
+
+    def __new__(cls, *values: Any, **arguments: Any) -> Part:
+        known = [name for name in inspect.signature(cls.__init__).parameters if name != "self"]
+        if values and cls is not Part:
+            raise TypeError(f"buckens.{cls.__name__} takes its arguments by name ({known[0]}=...), found {values[0]!r}")
+        for name in arguments:
+            if name not in known:
+                near = difflib.get_close_matches(name, known, 1, 0.5)
+                hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(known)}"
+                raise TypeError(f"buckens.{cls.__name__} has no argument {name!r}; {hint}")
+        return super().__new__(cls)
 
     def __init__(self, kind: str, fields: Mapping[str, Any], others: Mapping[str, Any]) -> None:
         self._kind = kind

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Results and verbs of the program from Python, and the module's types."""
 
+import copy
 import json
 import math
 import pathlib
+import pickle
 import subprocess
 import sys
 
@@ -14,14 +16,14 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent / "support"))
 from python_module import PACKAGES, SOURCE, buckens, source  # noqa: E402 (found after the path is set)
 
 TREE = {
-    "title": "Swinging bar", "gravity": [0, 0, "-9.81 m/s^2"],
+    "title": "Sagging bar", "gravity": [0, 0, "-9.81 m/s^2"],
     "materials": {"steel": {"E": "200 GPa", "nu": 0.3, "rho": 7850}},
-    "bodies": {"bar": {"mesh": {"box": {"size": ["200 mm", "20 mm", "10 mm"], "elements": [4, 1, 1]},
-                                "material": "steel"}}},
-    "joints": {"hinge": {"revolute": {"between": ["ground", "bar"], "axis": [0, 1, 0]}}},
+    "bodies": {"bar": {"mesh": {"box": {"size": ["200 mm", "20 mm", "10 mm"], "divisions": [4, 1, 1]},
+                                "material": "steel"}, "interfaces": {"root": {"face": "x0"}}}},
+    "joints": {"clamp": {"fixed": {"between": ["ground", "bar/root"]}}},
     "simulation": {"duration": "20 ms", "step": "1 ms"},
-    "output": {"every": "2 ms", "sensors": {"place": {"position": "bar"}, "total": {"energy": "total"}},
-               "fields": {"every": "10 ms", "quantities": ["von_mises"]}},
+    "output": {"every": "2 ms", "sensors": {"place": {"position": "bar/corner_100"}, "total": {"energy": "total"}},
+               "fields": {"every": "10 ms", "record": ["von-mises"]}},
 }
 
 
@@ -156,6 +158,45 @@ def test_the_stub_of_the_core_names_what_is_there():
     assert (PACKAGES / "buckens" / "py.typed").exists()
 
 
+def test_fields_by_the_words_of_the_model_file_and_within_the_run(tmp_path):
+    buckens.Simulation(TREE, out=tmp_path / "out").run()
+    run = buckens.open(tmp_path / "out")
+    last = run.field("von_mises", "bar", t=0.02)
+    assert np.array_equal(run.field("von-mises", "bar"), last) and last.size
+    # Fields every 10 ms, records every 2 ms: half an interval beyond them is theirs.
+    assert np.array_equal(run.field("von_mises", "bar", t=0.0249), last)
+    assert np.array_equal(run.mesh("bar", t=0.0209).points, run.mesh("bar", t=0.02).points)
+    for t in (-0.006, 0.0251, 20, math.inf, math.nan):
+        with pytest.raises(buckens.InputError, match="t = .* s: the fields span t = 0 s to 0.02 s; give a time"):
+            run.field("von_mises", "bar", t=t)
+    for t in (-0.0011, 0.0211, math.nan):
+        with pytest.raises(buckens.InputError, match="t = .* s: the records span t = 0 s to 0.02 s; give a time"):
+            run.mesh("bar", t=t)
+
+
+def test_a_package_that_is_missing_is_named(run, monkeypatch):
+    mesh = run.mesh("rod")
+    for name, use in (("xarray", run.to_xarray), ("meshio", mesh.to_meshio), ("pyvista", mesh.to_pyvista),
+                      ("pandas", run.to_pandas), ("matplotlib", run.plot), ("h5py", lambda: run.time)):
+        with monkeypatch.context() as without:
+            for known in [known for known in sys.modules if known.split(".")[0] == name]:
+                without.delitem(sys.modules, known)
+            without.setattr(sys, "meta_path", [Without(name), *sys.meta_path])
+            with pytest.raises(ModuleNotFoundError, match=f"needs the package {name}, .*: python3 -m pip install {name}"):
+                use()
+
+
+class Without:
+    """Finds no such package, installed or not."""
+
+    def __init__(self, name):
+        self.name = name
+
+    def find_spec(self, name, path=None, target=None):
+        if name.split(".")[0] == self.name:
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+
+
 def test_models_of_objects_are_those_of_dictionaries():
     """The classes come from the schema; objects, dictionary and file say the same."""
     steel = buckens.Material(E="200 GPa", nu=0.3, rho=7850)
@@ -182,8 +223,15 @@ def test_models_of_objects_are_those_of_dictionaries():
     assert model.to_yaml() == buckens.Model.from_dict(tree).to_yaml()
     assert buckens.check(model)["degrees_of_freedom"] == 0
     assert repr(buckens.Fixed(between=["ground", "a"])) == "Fixed(between=['ground', 'a'])"
-    with pytest.raises(TypeError, match="lenght"):
-        buckens.Beam(lenght=3, to=[1, 0, 0], section="s", material="m")
+    for wrong, words in (({"too": 3}, "buckens.Beam has no argument 'too'; did you mean 'to'?"),
+                         ({"elemnts": 3}, "buckens.Beam has no argument 'elemnts'; did you mean 'elements'?"),
+                         ({"qqq": 3}, "buckens.Beam has no argument 'qqq'; there are to, section, material")):
+        with pytest.raises(TypeError) as caught:
+            buckens.Beam(to=[1, 0, 0], section="s", material="m", **wrong)
+        assert words in str(caught.value)
+    with pytest.raises(TypeError, match=r"buckens.Fixed takes its arguments by name \(between=...\), found \['ground', 'a'\]"):
+        buckens.Fixed(["ground", "a"])
+    assert copy.deepcopy(steel) == pickle.loads(pickle.dumps(steel)) == steel
     # Every kind of body, joint and load of the format has its class.
     schema = json.loads(pathlib.Path(source("schema/model.schema.json")).read_text())["properties"]
     kinds = [kind["required"][0] for part in ("bodies", "joints", "loads")

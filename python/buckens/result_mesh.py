@@ -8,6 +8,8 @@ from typing import Any, Dict, List, Tuple
 import numpy as np
 import numpy.typing as npt
 
+from .other_packages import package
+
 Numbers = npt.NDArray[Any]
 
 # Cell kinds of results.h5, meshio's names and VTK's cell types; the node order is the same.
@@ -36,14 +38,11 @@ class ResultMesh:
 
     def to_meshio(self) -> Any:
         """Converts to a meshio.Mesh."""
-        import meshio
-
-        return meshio.Mesh(self.points, list(self.cells.items()))
+        return package("meshio", "to_meshio").Mesh(self.points, list(self.cells.items()))
 
     def to_pyvista(self) -> Any:
         """Converts to a pyvista.UnstructuredGrid."""
-        import pyvista
-
+        pyvista = package("pyvista", "to_pyvista")
         rows, kinds = self.to_vtk()
         return pyvista.UnstructuredGrid(rows, kinds, self.points)
 

@@ -17,6 +17,7 @@ import numpy as np
 from .curve import Curve
 from .errors import InputError, IoError
 from .model import PathLike
+from .other_packages import package
 from .result_mesh import ResultMesh, placed, read_mesh
 from .run_tables import RunTables
 from .verbs import view as write_page
@@ -53,8 +54,7 @@ class Results:
 
     @contextlib.contextmanager
     def _file(self) -> Iterator[Any]:
-        import h5py
-
+        h5py = package("h5py", "to read results")
         path = self.directory / "results.h5"
         try:
             file = h5py.File(path, "r", swmr=True)
@@ -151,12 +151,13 @@ class Results:
         Parameters
         ----------
         quantity
-            Such as "von_mises", "stress" or "displacement".
+            Such as "von_mises", "stress" or "displacement"; the model file's "von-mises" is the same.
         t
-            Time [s]; the nearest recorded field is returned. None: the last one.
+            Time [s]; the nearest recorded field is returned. None: the last one. A time outside the records is refused.
         on
             "nodes", "elements", "shells", "interfaces" or "loads".
         """
+        quantity = quantity.replace("-", "_")
         path = f"fields/bodies/{body}/{on}/{quantity}"
         times = self.field_times
         with self._file() as file:
@@ -166,7 +167,7 @@ class Results:
                     f"the run has {', '.join(known)}" if known else
                     "the run has none: ask for them in `output: {fields: ...}` of the model"))
             data = file[path]
-            row = len(times) - 1 if t is None else int(np.argmin(np.abs(np.asarray(times) - t)))
+            row = len(times) - 1 if t is None else _row_at(t, np.asarray(times), "the fields")
             return Curve(data[row], name=quantity, unit=_text(data.attrs.get("unit", "1")),
                          components=[_text(c) for c in data.attrs.get("components", [])])
 
@@ -176,8 +177,8 @@ class Results:
         Parameters
         ----------
         t
-            Time [s]: the mesh is deformed as in the nearest record, in world axes. None: the mesh is undeformed, in
-            body axes.
+            Time [s]: the mesh is deformed as in the nearest record, in world axes. A time outside the records is
+            refused. None: the mesh is undeformed, in body axes.
         """
         with self._file() as file:
             known = self._tables.rows(file, "bodies")
@@ -190,7 +191,7 @@ class Results:
             times = file["time"][:]
             if not len(times):
                 raise InputError(f"{self.directory}: nothing is recorded yet")
-            row = int(np.argmin(np.abs(times - t)))
+            row = _row_at(t, times, "the records")
             path = f"bodies/{body}/displacement"
             displacement = file[path][row][:, :3] if path in file else np.zeros_like(mesh.points)
             pose = self._tables.find(file, f"bodies/{body}/pose")
@@ -213,7 +214,7 @@ class Results:
     # ---- to other packages
     def to_pandas(self, *names: str) -> Any:
         """Returns a pandas.DataFrame of sensors over time; without names, of all sensors."""
-        import pandas
+        pandas = package("pandas", "to_pandas")
 
         columns = {}
         for name in names or self.sensors:
@@ -226,8 +227,7 @@ class Results:
 
     def to_xarray(self) -> Any:
         """Returns an xarray.Dataset of the sensors over time, with units."""
-        import xarray
-
+        xarray = package("xarray", "to_xarray")
         out = xarray.Dataset(coords={"t": ("t", np.asarray(self.time), {"units": "s"})})
         for name in self.sensors:
             curve = self[name]
@@ -238,9 +238,7 @@ class Results:
     def plot(self, *names: str, axes: Any = None) -> Any:
         """Plots sensors over time with matplotlib and returns the axes."""
         if axes is None:
-            import matplotlib.pyplot
-
-            axes = matplotlib.pyplot.subplots()[1]
+            axes = package("matplotlib.pyplot", "plot").subplots()[1]
         time = np.asarray(self.time)
         units = []
         for name in names or self.sensors:
@@ -292,6 +290,18 @@ def open_text(path: pathlib.Path) -> Any:
 
 def _text(value: Any) -> str:
     return value.decode() if isinstance(value, bytes) else str(value)
+
+
+def _row_at(t: float, times: Any, what: str) -> int:
+    """The row of the record next to a time, which lies at most half an interval outside of them."""
+    if not len(times):
+        raise InputError(f"t = {t:.9g} s: nothing is recorded yet")
+    # A single record is found by its own time, to rounding.
+    before, after = (0.5 * (times[1] - times[0]), 0.5 * (times[-1] - times[-2])) if len(times) > 1 else (0.0, 0.0)
+    rounding = 1e-9 * abs(times[-1])
+    if not times[0] - before - rounding <= t <= times[-1] + after + rounding:
+        raise InputError(f"t = {t:.9g} s: {what} span t = {times[0]:.6g} s to {times[-1]:.6g} s; give a time between them")
+    return int(np.argmin(np.abs(times - t)))
 
 
 def _is_recorded(path: str) -> bool:
