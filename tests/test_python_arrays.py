@@ -121,12 +121,14 @@ def tetrahedron(mass, stiffness):
     return nodes, mass * np.eye(12), k
 
 
-@pytest.mark.parametrize("is_sparse", [True, False])
-def test_matrices_of_a_tetrahedron(is_sparse, tmp_path):
+@pytest.mark.parametrize("kind", ["sparse", "array", "matrix"])
+def test_matrices_of_a_tetrahedron(kind, tmp_path):
     nodes, m, k = tetrahedron(0.25, 4000.0)
-    if is_sparse:
+    if kind == "sparse":
         sparse = pytest.importorskip("scipy.sparse")
         m, k = sparse.csr_matrix(m), sparse.coo_matrix(k)
+    elif kind == "matrix":
+        m, k = np.matrix(m), np.matrix(k)
     built = buckens.Model(bodies={"cage": buckens.Matrices(mass=m, stiffness=k, nodes=nodes)})
     found = [mode["frequency"] for mode in buckens.modes(built, body="cage", count=6)["analyses"][0]["modes"]]
     # Stretching alone: w^2 m/k is 1 (twice), 2 (three times) and 4, as in the molecule P4.
@@ -135,6 +137,21 @@ def test_matrices_of_a_tetrahedron(is_sparse, tmp_path):
     built.save(tmp_path / "cage.yaml")
     assert sorted(file.suffix for file in tmp_path.iterdir()) == [".csv", ".mtx", ".mtx", ".yaml"]
     assert buckens.check(tmp_path / "cage.yaml")["bodies"]["cage"]["mass"] == pytest.approx(1.0)
+
+
+def test_matrices_that_do_not_fit_name_their_body():
+    nodes, m, k = tetrahedron(0.25, 4000.0)
+    skew = k.copy()
+    skew[0, 1] += 1
+    nine = np.eye(9)
+    for change, words in (({"mass": m + np.triu(m, 0) + np.eye(12, k=1)}, "bodies.cage.matrices.mass: the matrix is not symmetric"),
+                          ({"stiffness": skew}, "bodies.cage.matrices.stiffness: the matrix is not symmetric"),
+                          ({"damping": skew}, "bodies.cage.matrices.damping: the matrix is not symmetric"),
+                          ({"stiffness": nine}, "bodies.cage.matrices.stiffness: the matrix has 9 rows"),
+                          ({"mass": nine, "stiffness": nine}, "bodies.cage.matrices.stiffness: the matrix has 9 rows, the table 4 nodes")):
+        with pytest.raises(buckens.InputError) as caught:
+            buckens.Model(bodies={"cage": {"matrices": {"mass": m, "stiffness": k, "nodes": nodes, **change}}})
+        assert words in str(caught.value)
 
 
 def test_the_mesh_of_a_run(tmp_path):

@@ -118,6 +118,7 @@ def _matrix_market(value: Any, place: str) -> bytes:
     else:
         if value.ndim != 2:
             raise InputError(f"{place}: expected a matrix, found an array of shape {value.shape}")
+        value = np.asarray(value)  # of a numpy.matrix, rows would stay matrices
         rows, columns = np.nonzero(value)
         numbers = value[rows, columns]
     if value.shape[0] != value.shape[1]:

@@ -2,7 +2,11 @@
 #include "buckens/model_file/body_mesh.h"
 
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/mesh_io/matrix/body.h"
@@ -18,12 +22,28 @@ std::filesystem::path full_path(const std::string& name, const ReadContext& cont
   return context.directory / name;
 }
 
-void load_matrices(fem::MatricesSpec& matrices, const ReadContext& context) {
+/// Key of the file of matrices or nodes that an error is about, as in a path: ".mass".
+std::string key_of(const fem::MatricesSpec& matrices, const std::string& file,
+                   const ReadContext& context) {
+  for (const auto& [key, name] :
+       {std::pair(".mass", &matrices.mass), std::pair(".stiffness", &matrices.stiffness),
+        std::pair(".damping", &matrices.damping), std::pair(".nodes", &matrices.nodes)}) {
+    if (!name->empty() && full_path(*name, context).string() == file) return key;
+  }
+  return "";
+}
+
+void load_matrices(fem::MatricesSpec& matrices, const std::string& body,
+                   const ReadContext& context) {
   if (matrices.imported) return;
   try {
     matrices.imported = mesh_io::read_body_matrices(matrices, context.directory);
   } catch (const IoError& error) {
     throw InputError(matrices.where, error.what());
+  } catch (const InputError& error) {
+    throw InputError(error.where(),
+                     fmt::format("bodies.{}.matrices{}: {}", body,
+                                 key_of(matrices, error.where().file, context), error.text()));
   }
 }
 
@@ -45,7 +65,7 @@ void load_body_mesh(body::BodySpec& body, const ReadContext& context) {
     return;
   }
   if (auto* matrices = std::get_if<fem::MatricesSpec>(&body.kind)) {
-    return load_matrices(*matrices, context);
+    return load_matrices(*matrices, body.name, context);
   }
   auto* mesh = std::get_if<fem::MeshSpec>(&body.kind);
   if (mesh == nullptr || !mesh->is_file() || mesh->imported) return;
