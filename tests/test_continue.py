@@ -176,7 +176,9 @@ def test_another_end(buckens, tmp_path):
     buckens("run", "model.yaml", "-q", "-o", "out", "--set", "simulation.duration=0.25 s").must(0)
     buckens("run", "--continue", "out", "-q").must(2, "the end of the run", "--until")
     buckens("run", "--continue", "out", "--until", 0.1).must(2, "--until 0.1", "has already reached t = 0.25 s")
-    buckens("run", "--continue", "out", "--until", 0.5, "-q").must(0)
+    for wrong in ("nan", "inf", "soon", "1 m", "5 mss", ""):
+        buckens("run", "--continue", "out", "--until", wrong).must(2, f"--until {wrong}: this is no time", "--until 30ms")
+    buckens("run", "--continue", "out", "--until", "500 ms", "-q").must(0)
     buckens("run", "--continue", "out", "--until", 0.8, "-q").must(0)
     one, other = datasets(tmp_path / "whole"), datasets(tmp_path / "out")
     for path, values in one.items():
@@ -302,7 +304,8 @@ def test_what_cannot_go_on_is_refused(buckens, start, models, tmp_path):
         damaged = bytearray(files["checkpoint.h5"])
         damaged[place] ^= 1
         (out / "checkpoint.h5").write_bytes(damaged)
-        buckens(*go_on).must(5, "checkpoint.h5")
+        refused = buckens(*go_on).must(5, "checkpoint.h5", "run the model from the start")
+        assert "save it again" not in refused.err
     (out / "checkpoint.h5").write_bytes(of_another_version(files["checkpoint.h5"]))
     buckens(*go_on).must(2, "checkpoint.h5: the state was saved by buckens 9.9.9, this is")
     (out / "checkpoint.h5").write_bytes(files["checkpoint.h5"])

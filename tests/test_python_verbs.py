@@ -105,8 +105,14 @@ def test_a_run_starts_from_a_saved_state(crank, tmp_path):
     long.run()
     assert sim.end_time == long.end_time == 7e-3 and sim.num_steps == long.num_steps
     assert np.array_equal(sim.bodies["rod"].displacements, long.bodies["rod"].displacements)
-    with pytest.raises(buckens.InputError, match="until: expected a number, found '7 ms'"):
-        buckens.Simulation.resume(tmp_path / "half.h5", crank, until="7 ms")
+    assert buckens.Simulation.resume(tmp_path / "half.h5", crank, until="7 ms").end_time == 7e-3
+    for wrong in ("7 m", "soon", float("nan"), float("inf"), [1], True):
+        with pytest.raises(buckens.InputError, match="until: expected a time in seconds or such as '30 ms', found"):
+            buckens.Simulation.resume(tmp_path / "half.h5", crank, until=wrong)
+        with pytest.raises(buckens.InputError, match="until: expected a time in seconds or such as '30 ms', found"):
+            buckens.continue_run(tmp_path / "rest", until=wrong)
+    with pytest.raises(buckens.InputError, match="the state is that at t = .* s, after the end of the run at t = 0.001 s"):
+        buckens.Simulation.resume(tmp_path / "half.h5", crank, until="1 ms")
 
 
 @pytest.fixture

@@ -10,6 +10,7 @@
 #include "buckens/analysis/simulation/output_plan.h"
 #include "buckens/analysis/simulation/settings.h"
 #include "buckens/base/errors.h"
+#include "buckens/base/units.h"
 #include "buckens/run_store/run_files.h"
 #include "buckens/run_store/state_file.h"
 
@@ -38,6 +39,20 @@ void require_run_to_continue(const fs::path& directory) {
   }
 }
 
+/// The time that --until gives, in seconds.
+double end_of_run(const std::string& text) {
+  const base::QuantityText parts = base::split_quantity(text);
+  const auto number = base::parse_number(parts.formula);
+  const auto unit = base::parse_unit(parts.unit.empty() ? "s" : parts.unit);
+  if (!number || !unit || unit->dimension != base::kTime) {
+    throw InputError(
+        fmt::format("--until {}: this is no time; give a number in seconds, or one with a unit of "
+                    "time: --until 0.03, --until 30ms",
+                    text));
+  }
+  return *number * unit->factor;
+}
+
 }  // namespace
 
 void add_continuation_options(CLI::App& verb, ContinuationArguments& arguments) {
@@ -47,7 +62,8 @@ void add_continuation_options(CLI::App& verb, ContinuationArguments& arguments) 
                   "was run is used; --set may change step and tolerance")
       ->type_name("OUT");
   verb.add_option("--until", arguments.until,
-                  "With --continue: end of the run [s], later or earlier than planned")
+                  "With --continue: end of the run, later or earlier than planned;\n"
+                  "in seconds, or with a unit: 30ms")
       ->type_name("T");
 }
 
@@ -66,12 +82,12 @@ fs::path Continuation::model() const { return directory_ / run_store::kModelName
 fs::path Continuation::checkpoint() const { return directory_ / run_store::kCheckpointName; }
 
 std::vector<std::string> Continuation::changes_until(const model::ModelDescription& description,
-                                                     double until) const {
+                                                     const std::string& text) const {
+  const double until = end_of_run(text);
   if (!(until > kept_.time)) {
     throw InputError(
-        fmt::format("--until {:g}: the run in {} has already reached t = {:.9g} s; give a later "
-                    "time",
-                    until, directory_.string(), kept_.time));
+        fmt::format("--until {}: the run in {} has already reached t = {:.9g} s; give a later time",
+                    text, directory_.string(), kept_.time));
   }
   // Without them, the length of steps and the times of records would follow from the duration.
   const double steps = (until - kept_.march_start) / kept_.longest_step;

@@ -15,8 +15,8 @@ namespace buckens::cli {
 
 /// The user's options for going on with a run.
 struct ContinuationArguments {
-  std::string directory;        ///< empty: the run begins anew
-  std::optional<double> until;  ///< another end [s]
+  std::string directory;             ///< empty: the run begins anew
+  std::optional<std::string> until;  ///< another end: a time such as 0.2 or 30ms
 };
 
 void add_continuation_options(CLI::App& verb, ContinuationArguments& arguments);
@@ -33,9 +33,10 @@ class Continuation {
   const run_store::Continuation& kept() const { return kept_; }
 
   /// Changes of the model that move its end and keep steps and times of records as they are.
-  /// @throws InputError if the run is beyond that
+  /// @param until a time as in a model file
+  /// @throws InputError if it is no time, or the run is beyond it
   std::vector<std::string> changes_until(const model::ModelDescription& description,
-                                         double until) const;
+                                         const std::string& until) const;
 
  private:
   std::filesystem::path directory_;

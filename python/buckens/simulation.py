@@ -15,6 +15,7 @@ from . import _core
 from .curve import Curve
 from .errors import Error, InputError
 from .messages import tell_messages
+from .instant import Quantity, instant
 from .model import Model, ModelLike, PathLike, model_of
 from .present import Array, Bodies, Signals, Values
 from .signal_function import ForceFunction, SignalFunction, given_force, given_signal, require_function, require_text
@@ -65,7 +66,7 @@ class Simulation:
 
     @classmethod
     def resume(cls, path: PathLike, model: ModelLike, out: Optional[PathLike] = None, threads: int = 1,
-               record: bool = True, *, until: Optional[float] = None) -> Simulation:
+               record: bool = True, *, until: Optional[Quantity] = None) -> Simulation:
         """Continues from a state saved by :meth:`save`, with bit-identical results.
 
         Parameters
@@ -75,7 +76,7 @@ class Simulation:
         model, out, threads, record
             As for :class:`Simulation`; the model may differ from the saved one in title and duration.
         until
-            New end of the run [s], which replaces the ``duration`` of the model.
+            New end of the run, in seconds or such as "30 ms", which replaces the ``duration`` of the model.
 
         Raises
         ------
@@ -85,7 +86,7 @@ class Simulation:
             If the file cannot be read or is damaged.
         """
         if until is not None:
-            model = model_of(model).with_changes({"simulation.duration": _number("until", until)})
+            model = model_of(model).with_changes({"simulation.duration": instant("until", until)})
         return cls(model, out, threads, record, _start_from=os.fspath(path))
 
     def _prepare(self) -> None:

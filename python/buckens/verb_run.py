@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 from typing import Any, Dict, Optional
 
+from .instant import Quantity, instant
 from .model import Model, ModelLike, Overrides, PathLike, model_of
 from .program import call, changes_of, file_of, options_of
 from .simulation import keep_files
@@ -61,7 +62,7 @@ def run(model: ModelLike, out: PathLike, set: Overrides = None, *, error: bool =
             keep_files(model, os.fspath(out))
 
 
-def continue_run(out: PathLike, until: Optional[float] = None, set: Overrides = None, *,  # noqa: A002
+def continue_run(out: PathLike, until: Optional[Quantity] = None, set: Overrides = None, *,  # noqa: A002
                  threads: Optional[int] = None, factors: Optional[PathLike] = None,
                  save_state: Optional[PathLike] = None, save_state_at: Optional[float] = None) -> Dict[str, Any]:
     """Continues a run of the program from its last checkpoint.
@@ -74,7 +75,7 @@ def continue_run(out: PathLike, until: Optional[float] = None, set: Overrides = 
     out
         Directory of the run.
     until
-        New end of the run [s]; a finished run can be extended.
+        New end of the run, in seconds or such as "30 ms"; a finished run can be extended.
     set
         Changes to ``simulation.step`` and ``simulation.tolerance``, after a step that failed.
     threads, factors, save_state, save_state_at
@@ -90,5 +91,6 @@ def continue_run(out: PathLike, until: Optional[float] = None, set: Overrides = 
     InputError
         If there is nothing to continue, or if the model, its files or the version differ, naming the difference.
     """
-    return call("run", options_of(**{"continue": out}, until=until, threads=threads, factors=factors,
+    end = None if until is None else instant("until", until)
+    return call("run", options_of(**{"continue": out}, until=end, threads=threads, factors=factors,
                                   save_state=save_state, save_state_at=save_state_at) + changes_of(set))

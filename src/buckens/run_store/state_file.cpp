@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <map>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/files/output_file.h"
 #include "buckens/run_store/hdf5_file.h"
+#include "buckens/run_store/run_files.h"
 
 namespace buckens::run_store {
 
@@ -156,6 +159,14 @@ std::vector<std::string> unpacked(const std::vector<std::uint8_t>& bytes) {
   return out;
 }
 
+/// What helps if a state is damaged. A checkpoint was written by its run, which ended.
+std::string_view remedy(const std::string& name) {
+  return std::filesystem::path(name).filename() == kCheckpointName
+             ? "the run cannot be continued; run the model from the start, or from a state saved "
+               "with --save-state"
+             : "save it again";
+}
+
 /// The bytes before the trailer, once they have proved sound.
 std::string_view checked(std::string_view bytes, const std::string& name) {
   const std::size_t size = bytes.size() - std::min(bytes.size(), kStateTrailer);
@@ -176,10 +187,8 @@ std::string_view checked(std::string_view bytes, const std::string& name) {
                     "buckens that has written it",
                     name, kStateFormat));
   }
-  throw IoError(
-      fmt::format("{}: the saved state is damaged: its checksum or size differs; save it "
-                  "again",
-                  name));
+  throw IoError(fmt::format("{}: the saved state is damaged: its checksum or size differs; {}",
+                            name, remedy(name)));
 }
 
 }  // namespace
@@ -218,7 +227,8 @@ base::SavedValues parse_state(std::string_view bytes, const std::string& name) {
     take_group(file.get(), "texts", image.size(), texts);
     for (const auto& [path, packed_texts] : texts) out.texts[path] = unpacked(packed_texts);
   } catch (const IoError& error) {
-    throw IoError(fmt::format("{}: the saved state is damaged: {}", name, error.what()));
+    throw IoError(
+        fmt::format("{}: the saved state is damaged: {}; {}", name, error.what(), remedy(name)));
   }
   return out;
 }

@@ -84,6 +84,15 @@ constexpr char kLongestStepLine[] = "longest step";
 const std::vector<std::string> kFreeSteps = {"simulation.step", "simulation.tolerance",
                                              "simulation.absolute-tolerance", kLongestStepLine};
 
+/// @throws InputError if a saved state lies beyond the end of the run
+void require_within(double duration, double t) {
+  if (t <= duration * (1.0 + kSameEnd)) return;
+  throw InputError(
+      fmt::format("the state is that at t = {:.9g} s, after the end of the run at t = {:.9g} s; "
+                  "give the model a longer simulation.duration",
+                  t, duration));
+}
+
 }  // namespace
 
 const std::vector<double>& SimulationRun::observe() {
@@ -285,6 +294,7 @@ void SimulationRun::restore(const base::SavedValues& saved, Leeway leeway) {
                     differences(lines, here)));
   }
   visit_saved(visit);
+  require_within(spec_.duration, state().t);
   if (has_other_steps) {
     if (state().t >= spec_.duration * (1.0 - kSameEnd)) {
       throw InputError(fmt::format(
