@@ -207,6 +207,26 @@ def test_time_and_its_end(sim):
         buckens.Simulation(buckens.Model.from_dict(no_end))
 
 
+def test_a_run_that_was_ended_is_not_taken_for_a_whole_one():
+    finished, failed, stopped, whole = (buckens.Simulation(TREE) for _ in range(4))
+    finished.step()
+    finished.finish()
+
+    @failed.on_step
+    def fail(now):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        failed.run()
+    stopped.on_step(lambda now: now.stop())
+    assert stopped.run()["steps"] == 1
+    for sim in (finished, failed, stopped):
+        for use in (sim.run, lambda: sim.advance(5e-3)):
+            with pytest.raises(buckens.InputError, match="finished at t = 0.001 s.*begin another one, or resume"):
+                use()
+    assert whole.run() == whole.run()
+
+
 def test_names_of_what_is_looked_at(sim):
     with pytest.raises(buckens.InputError, match="no body 'crat'.*cart"):
         sim.bodies["crat"]

@@ -65,6 +65,30 @@ def test_results_are_arrays_with_units(run):
     assert run.energy_account["brought_in"] and run.energy_account == run.summary["energy_account"]
 
 
+def test_a_run_in_progress_shows_all_its_records(tmp_path):
+    """Records reach the file within a second; a reader in the same process does not wait for them."""
+    sim = buckens.Simulation(TREE, out=tmp_path / "out")
+    run = buckens.open(tmp_path / "out")
+    first = run._repr_html_()
+    assert "Sagging bar: no records yet" in first or "<iframe" in first
+    sim.advance(10e-3)
+    assert np.allclose(run.time, np.arange(0, 11e-3, 2e-3), rtol=0, atol=1e-12)
+    assert len(run["place"]) == 6 and np.allclose(run.field_times, [0, 10e-3])
+    assert "<iframe" in run._repr_html_()
+    sim.advance(12e-3)
+    assert len(buckens.open(tmp_path / "out").time) == 7
+    assert buckens.view(tmp_path / "out", tmp_path / "page.html")["frames"] == 7
+
+    seen = []
+
+    @sim.on_step
+    def look(now):
+        seen.append(run.time[-1])
+
+    sim.run()
+    assert seen[-1] == run.time[-1] == pytest.approx(20e-3) and seen[1] == pytest.approx(14e-3)
+
+
 def test_plots_have_names_and_units(run):
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")

@@ -98,7 +98,8 @@ void define_simulation(py::module_& core) {
       .def("signal", &Simulation::signal, "name"_a)
       .def("signals", &Simulation::signals)
       .def("set_signal", &Simulation::set_signal, "signal"_a, "value"_a)
-      .def("save", &Simulation::save, "path"_a);
+      .def("save", &Simulation::save, "path"_a)
+      .def("flush", &Simulation::flush);
 }
 
 py::list messages_as_list() {

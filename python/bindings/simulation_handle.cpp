@@ -157,7 +157,8 @@ bool SimulationHandle::advance(double t) {
 
 std::string SimulationHandle::run(py::object progress) {
   require_idle("run");
-  if (summary_) return *summary_;
+  if (summary_ && is_done()) return *summary_;
+  require_unfinished();
   progress_ = std::move(progress);
   try {
     compute([&] { simulation_->run(); });
@@ -217,6 +218,11 @@ void SimulationHandle::set_signal(const std::string& signal, double value) {
 void SimulationHandle::save(const std::string& path) const {
   require_at_rest("save");
   run_store::write_state(simulation_->save(), path);
+}
+
+void SimulationHandle::flush() {
+  if (!directory_ || summary_ || phase_ == Phase::in_step) return;
+  directory_->flush();
 }
 
 }  // namespace buckens::python

@@ -79,6 +79,9 @@ class SimulationHandle : public std::enable_shared_from_this<SimulationHandle> {
   void release_load(const std::string& load);
   void set_signal(const std::string& signal, double value);
   void save(const std::string& path) const;
+  /// Brings the records so far to the run directory, unless a step is being computed: then they
+  /// come within a second.
+  void flush();
 
  private:
   enum class Phase { idle, in_step, between_steps };

@@ -16,6 +16,7 @@ import numpy as np
 
 from .curve import Curve
 from .errors import InputError, IoError
+from .live_records import flush_records
 from .model import PathLike
 from .other_packages import package
 from .result_mesh import ResultMesh, placed, read_mesh
@@ -56,6 +57,7 @@ class Results:
     def _file(self) -> Iterator[Any]:
         h5py = package("h5py", "to read results")
         path = self.directory / "results.h5"
+        flush_records(self.directory)
         try:
             file = h5py.File(path, "r", swmr=True)
         except OSError as error:
@@ -262,7 +264,9 @@ class Results:
         return RunPage(write_page(self.directory)["page"])
 
     def _repr_html_(self) -> str:
-        """Returns the page for display in a notebook."""
+        """Returns the page for display in a notebook; a text as long as nothing is recorded."""
+        if not len(self.time):
+            return html.escape(f"{self.title}: no records yet in {self.directory} ({self.status})")
         with tempfile.TemporaryDirectory(prefix="buckens-") as folder:
             page = os.path.join(folder, "view.html")
             write_page(self.directory, page)

@@ -16,6 +16,7 @@ from .curve import Curve
 from .errors import Error, InputError
 from .messages import tell_messages
 from .instant import Quantity, instant
+from .live_records import flush_before_reading
 from .model import Model, ModelLike, PathLike, model_of
 from .present import Array, Bodies, Signals, Values
 from .signal_function import ForceFunction, SignalFunction, given_force, given_signal, require_function, require_text
@@ -100,6 +101,8 @@ class Simulation:
             self._is_preparing = False
         for callback in self._callbacks:
             self._core_now.on_step(callback)
+        if out:
+            flush_before_reading(out, self._core_now)
         if out and self._model._files:
             keep_files(self._model, out)
         tell_messages()
@@ -162,6 +165,12 @@ class Simulation:
         -------
         dict
             The summary, as in summary.json of a run directory.
+
+        Raises
+        ------
+        InputError
+            If the run was ended before: by :meth:`finish`, :meth:`stop` or an exception. A run that has reached its
+            end returns its summary again.
         """
         show: Optional[Callable[[float, float, int], object]] = None
         if callable(progress):

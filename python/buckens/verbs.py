@@ -13,6 +13,7 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 from .errors import InputError
 from .live_page import LivePage
+from .live_records import flush_records
 from .model import ModelLike, Overrides, PathLike
 from .program import call, changes_of, file_of, options_of
 from .study_progress import ProgressLike
@@ -263,7 +264,10 @@ def view_live(run: PathLike, second: Optional[PathLike] = None, *, frames: Optio
 
 
 def _runs(run: PathLike, second: Optional[PathLike]) -> List[str]:
-    return [os.fspath(run)] + ([] if second is None else [os.fspath(second)])
+    runs = [run] if second is None else [run, second]
+    for one in runs:
+        flush_records(one)
+    return [os.fspath(one) for one in runs]
 
 
 def _page(frames: Optional[int], fields: Sequence[str], max_size: Optional[int]) -> List[str]:

@@ -226,6 +226,10 @@ void RunDirectory::write_extremes(const std::vector<double>& values) {
   guarded([&] { recorder_->write_extremes(values); });
 }
 
+void RunDirectory::flush() {
+  if (recorder_) guarded([&] { recorder_->flush(); });
+}
+
 void RunDirectory::write_checkpoint(const base::SavedValues& state) {
   guarded([&] { recorder_->flush(); });
   try_checkpoint(state);

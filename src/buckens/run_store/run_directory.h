@@ -59,6 +59,10 @@ class RunDirectory : public results::RecordSink {
   void write_fields(const results::Record& fields) override;
   void write_extremes(const std::vector<double>& values) override;
 
+  /// Brings the records so far to the file, where readers find them; else they come within a
+  /// second.
+  /// @throws IoError as write()
+  void flush();
   /// Writes checkpoint.h5, after the records so far have been brought to the disk: a continuation
   /// from it finds all records up to its state, whatever happens later. A checkpoint that cannot be
   /// written leaves the one before in place, and is a warning in the log.
