@@ -89,6 +89,19 @@ def test_a_run_in_progress_shows_all_its_records(tmp_path):
     assert seen[-1] == run.time[-1] == pytest.approx(20e-3) and seen[1] == pytest.approx(14e-3)
 
 
+def test_what_was_recorded_stays_readable_when_the_disk_is_full(run):
+    from buckens import live_records
+
+    class Full:
+        def flush(self):
+            raise buckens.IoError("no space left on device")
+
+    full = Full()
+    before = run.time
+    live_records.flush_before_reading(run.directory, full)
+    assert np.array_equal(run.time, before) and len(before)
+
+
 def test_plots_have_names_and_units(run):
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")

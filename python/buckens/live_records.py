@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import weakref
 
 from . import _core
+from .errors import IoError
 from .model import PathLike
 
 _writing: "weakref.WeakValueDictionary[str, _core.Simulation]" = weakref.WeakValueDictionary()
@@ -21,4 +23,6 @@ def flush_records(directory: PathLike) -> None:
     """Brings the records so far into a run directory, if a simulation of this process writes into it."""
     simulation = _writing.get(os.path.realpath(directory))
     if simulation is not None:
-        simulation.flush()
+        # What cannot be written is reported by the call that advances the simulation.
+        with contextlib.suppress(IoError):
+            simulation.flush()
