@@ -63,7 +63,7 @@ void spheres_step(benchmark::State& state, double from) {
   settings.step = kStep;
   constexpr long kMostSteps = 100000;
   buckens::stepping::TimeMarch march(run.built->model, settings, run.prepared.rows_in_use,
-                                     {kStep * kMostSteps, 0.0, kStep, kMostSteps, {}});
+                                     {kStep * kMostSteps, 0.0, kMostSteps, {}});
   buckens::model::State before = run.prepared.state, after = before;
   long whole = 0, iterations = 0;
   const auto advance = [&] {

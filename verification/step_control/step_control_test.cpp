@@ -24,10 +24,10 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-MarchSettings fixed(double duration, long steps) { return {duration, 0, 0, steps, std::nullopt}; }
+MarchSettings fixed(double duration, long steps) { return {duration, 0, steps, std::nullopt}; }
 
 MarchSettings controlled(double duration, double tolerance) {
-  return {duration, 0, 0, 20, ErrorTolerance{tolerance, 1e-9}};
+  return {duration, 0, 20, ErrorTolerance{tolerance, 1e-9}};
 }
 
 /// State at the end; `visit(before, after)` sees every accepted step.

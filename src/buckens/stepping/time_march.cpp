@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -25,31 +24,9 @@ constexpr double kPerHalving = 8.0;
 constexpr double kFade = 0.5;
 constexpr int kMostAtOnce = 5;
 
-bool is_same(double a, double b) {
-  return std::abs(a - b) <= 4 * std::numeric_limits<double>::epsilon() * std::abs(b);
-}
-
-/// A given step that divides the run to rounding keeps its digits, which runs of other lengths
-/// share.
 StepSettings with_longest_step(StepSettings settings, const MarchSettings& march) {
-  const double span = march.duration - march.start,
-               count = static_cast<double>(march.longest_steps);
-  settings.step = is_same(count * march.given_step, span) ? march.given_step : span / count;
+  settings.step = (march.duration - march.start) / static_cast<double>(march.longest_steps);
   return settings;
-}
-
-/// Steps given in decimals are fractions, so that instants are the numbers that a model file would
-/// have for them, whatever the run that they belong to.
-TimeGrid time_grid(const MarchSettings& march, double step) {
-  constexpr double kFinest = 1e12;
-  for (double parts = 1.0; step == march.given_step && parts <= kFinest; parts *= 10.0) {
-    const double whole = std::round(step * parts);
-    if (whole < 1.0 || !is_same(step * parts, whole)) continue;
-    const double first = std::round(march.start * parts / whole);
-    if (first == 0.0 ? march.start != 0.0 : !is_same(first * whole / parts, march.start)) break;
-    return {0.0, first, whole, parts};
-  }
-  return {march.start, 0.0, step, 1.0};
 }
 
 }  // namespace
@@ -59,7 +36,6 @@ TimeMarch::TimeMarch(const model::Model& model, StepSettings settings, std::vect
     : march_(march),
       ladder_(model, with_longest_step(std::move(settings), march), std::move(rows_in_use)),
       model_(model),
-      grid_(time_grid(march, ladder_.step(0))),
       end_(march.longest_steps * kTicks),
       has_rigid_rows_(model.may_have_rigid_rows()),
       accepted_(kShortestRung + 1, 0) {
@@ -71,7 +47,7 @@ bool TimeMarch::fits(int k) const { return ticks_ % (kTicks >> k) == 0; }
 double TimeMarch::time() const {
   // Counting avoids the drift of summed steps.
   if (is_done()) return march_.duration;
-  return grid_.at(static_cast<double>(ticks_) / static_cast<double>(kTicks));
+  return march_.start + static_cast<double>(ticks_) / static_cast<double>(kTicks) * ladder_.step(0);
 }
 
 StepReport TimeMarch::advance(const model::State& before, model::State& after,

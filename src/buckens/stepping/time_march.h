@@ -14,20 +14,10 @@ namespace buckens::stepping {
 
 /// How far to go and how long steps may be.
 struct MarchSettings {
-  double duration = 0;     ///< instant of the end [s]
-  double start = 0;        ///< instant of the first step's beginning [s]
-  double given_step = 0;   ///< taken as it is if longest_steps of it fill the run [s]
-  long longest_steps = 1;  ///< number of longest steps from start to end
+  double duration = 0;                      ///< instant of the end [s]
+  double start = 0;                         ///< instant of the first step's beginning [s]
+  long longest_steps = 1;                   ///< number of longest steps from start to end
   std::optional<ErrorTolerance> tolerance;  ///< controls the step; none: the longest throughout
-};
-
-/// Instants as multiples of the longest step, which is step / parts [s].
-struct TimeGrid {
-  double start = 0;  ///< [s]
-  double first = 0;  ///< steps before the first one of the march
-  double step = 0, parts = 1;
-
-  double at(double steps) const { return start + (first + steps) * step / parts; }
 };
 
 /// Steps of one length that were accepted.
@@ -61,7 +51,7 @@ class TimeMarch {
 
   using StepQuestion = std::function<bool(const model::State& before, const model::State& after)>;
 
-  /// @param settings `step` is replaced by given_step or (duration − start) / longest_steps
+  /// @param settings `step` is replaced by (duration − start) / longest_steps
   TimeMarch(const model::Model& model, StepSettings settings, std::vector<int> rows_in_use,
             const MarchSettings& march);
 
@@ -113,8 +103,7 @@ class TimeMarch {
   bool has_begun_ = false;
   bool has_restarted_ = false;  ///< at the end of the last step
   int k_ = 0;
-  double spread_ = 0;  ///< time whose share of the tolerance the next step may use [s]
-  TimeGrid grid_;
+  double spread_ = 0;         ///< time whose share of the tolerance the next step may use [s]
   long ticks_ = 0, end_ = 0;  ///< multiples of the shortest step
   MarchReport report_;
   bool has_rigid_rows_ = false;

@@ -81,7 +81,7 @@ void SimulationRun::check_method() {
 
 /// Where the model gives no longest step, the shortest sample time is a whole number of it.
 void SimulationRun::fit_to_samples(stepping::MarchSettings& march) const {
-  if (!march.tolerance || spec_.step) return;
+  if (!march.tolerance || spec_.step.value_or(0.0) > 0.0) return;
   double shortest = HUGE_VAL;
   for (const model::Signal& signal : built_.model.signals.all) {
     if (signal.is_sampled()) shortest = std::min(shortest, signal.block->sample_time());
