@@ -310,7 +310,7 @@ loads:
   fb: {hinge-friction: {joint: b, static: 0.1, radius: 5 mm}}
   fc: {hinge-friction: {joint: c, static: 0.1, radius: 5 mm}}
   fd: {slide-friction: {joint: d, static: 0.1}}
-  mo: {hinge-motor: {joint: a, torque: u, power-limit: 20 W}}
+  mo: {hinge-motor: {joint: a, torque: u, torque-limit: 3, power-limit: 20 W}}
   st: {slide-stop: {joint: d, from: -0.15, restitution: 0.2}}
 initial: {joints: {a: {angle: 30 deg}}}
 simulation: {duration: 0.15 s, step: STEP}
