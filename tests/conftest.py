@@ -72,6 +72,14 @@ class Result:
 
 
 @pytest.fixture
+def heed_ctrl_c():
+    """Jobs in the background ignore it, and so do their tests."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.fixture
 def buckens(tmp_path):
     """Runs the program to its end in a separate directory."""
 

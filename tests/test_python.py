@@ -246,14 +246,6 @@ def test_exceptions_of_functions_come_out_unchanged(tmp_path):
     assert stepped.step() and stepped.num_steps == 6  # goes on after it
 
 
-@pytest.fixture
-def heed_ctrl_c():
-    """Jobs in the background ignore it, and so do their tests."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, before)
-
-
 def test_ctrl_c_ends_a_run_after_a_step(tmp_path, heed_ctrl_c):
     model = buckens.Model.from_dict(falling_rod(simulation={"duration": 1e4, "step": 1e-3}))
     sim = buckens.Simulation(model, out=tmp_path / "out")

@@ -115,14 +115,6 @@ def test_a_run_starts_from_a_saved_state(crank, tmp_path):
         buckens.Simulation.resume(tmp_path / "half.h5", crank, until="1 ms")
 
 
-@pytest.fixture
-def heed_ctrl_c():
-    """Jobs in the background ignore it, and so do their tests."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, before)
-
-
 def test_ctrl_c_that_reaches_only_python_ends_a_run(tmp_path, heed_ctrl_c):
     """As notebooks send it: to the kernel, not to its children."""
     # Unless it is ended, it takes half a minute on a fast machine.

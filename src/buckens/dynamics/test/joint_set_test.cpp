@@ -214,13 +214,24 @@ model::Model with_laws_on_joints() {
   return m.take();
 }
 
+Vector any_multipliers(const model::Model& model) {
+  Vector lambda(model.num_constraint_rows());
+  for (int k = 0; k < static_cast<int>(lambda.size()); ++k) lambda[k] = 5.0 * any_number(7 * k);
+  return lambda;
+}
+
+/// That of the placed model, its laws a little strained.
+model::RowMemory strained_memory(const model::Model& model) {
+  model::RowMemory memory = model::placed_state(model).memory;
+  for (Eigen::Index k = 0; k < memory.laws.size(); ++k) memory.laws[k] += 0.001;
+  return memory;
+}
+
 TEST(JointSet, LawsOnJointsActAsAloneSoFarAsTheyAreOn) {
   const model::Model model = with_laws_on_joints();
   const std::vector<BodyMotion> motions = any_motions(model);
-  Vector lambda(model.num_constraint_rows());
-  for (int k = 0; k < static_cast<int>(lambda.size()); ++k) lambda[k] = 5.0 * any_number(7 * k);
-  model::RowMemory memory = model::placed_state(model).memory;
-  for (Eigen::Index k = 0; k < memory.laws.size(); ++k) memory.laws[k] += 0.001;
+  Vector lambda = any_multipliers(model);
+  model::RowMemory memory = strained_memory(model);
   memory.laws[model.loads[3].first_state] = 3;  // the rigid one slides backwards
   const JointSet joints(model);
   EXPECT_EQ(std::count(joints.laws().begin(), joints.laws().end(), 1), 5);
@@ -285,10 +296,8 @@ void expect_same(const SoftRows& found, const SoftRows& expected) {
 TEST(JointSet, LawsOnJointsGiveWayAsAlone) {
   const model::Model model = with_laws_on_joints();
   const std::vector<BodyMotion> motions = any_motions(model);
-  Vector lambda(model.num_constraint_rows());
-  for (int k = 0; k < static_cast<int>(lambda.size()); ++k) lambda[k] = 5.0 * any_number(7 * k);
-  model::RowMemory memory = model::placed_state(model).memory;
-  for (Eigen::Index k = 0; k < memory.laws.size(); ++k) memory.laws[k] += 0.001;
+  const Vector lambda = any_multipliers(model);
+  model::RowMemory memory = strained_memory(model);
   const JointSet joints(model);
   const ReactionSlopes followers(model);
   const Circumstances around{nullptr, &memory, &lambda, nullptr, nullptr};
@@ -313,10 +322,8 @@ TEST(JointSet, LawsOnJointsGiveWayAsAlone) {
 TEST(JointSet, TellsWhatLawsRememberIfTheStepEndsThere) {
   const model::Model model = with_laws_on_joints();
   const std::vector<BodyMotion> motions = any_motions(model);
-  Vector lambda(model.num_constraint_rows());
-  for (int k = 0; k < static_cast<int>(lambda.size()); ++k) lambda[k] = 5.0 * any_number(7 * k);
-  model::RowMemory memory = model::placed_state(model).memory;
-  for (Eigen::Index k = 0; k < memory.laws.size(); ++k) memory.laws[k] += 0.001;
+  const Vector lambda = any_multipliers(model);
+  model::RowMemory memory = strained_memory(model);
   memory.coordinates[0].turns = 2;
   const JointSet joints(model);
   const Circumstances around{nullptr, &memory, &lambda, nullptr, nullptr};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <span>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -177,14 +178,17 @@ template <std::size_t... kinds>
 void put_block(const ElementBlock& block, const std::vector<int>& elements,
                const std::vector<int>& number, BytesTo& put,
                std::index_sequence<kinds...> /*each*/) {
+  bool is_known = false;
   const auto put_as = [&](const auto* own, int kind) {
     if (own == nullptr) return;
+    is_known = true;
     put(kind);
     put_elements(*own, elements, number, put);
   };
   (put_as(dynamic_cast<const std::tuple_element_t<kinds, KindsOfBlocks>*>(&block),
           static_cast<int>(kinds)),
    ...);
+  if (!is_known) throw std::logic_error("elements of a kind that KindsOfBlocks lacks");
 }
 
 template <std::size_t... kinds>

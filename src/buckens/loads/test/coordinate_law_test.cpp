@@ -92,13 +92,17 @@ TEST(CoordinateLaw, PowerIsWhatIsStoredAndLost) {
   }
 }
 
-TEST(JointFriction, SticksElasticallyAndSlidesByItsBound) {
+FrictionData pin() {
   FrictionData data;
   data.static_coefficient = data.dynamic_coefficient = 0.3;
   data.preload = 2;
   data.slip = 1e-3;
   data.radius = 1;
-  const JointFriction friction(data, Vector3d::UnitX());
+  return data;
+}
+
+TEST(JointFriction, SticksElasticallyAndSlidesByItsBound) {
+  const JointFriction friction(pin(), Vector3d::UnitX());
   Sled sled;
   auto sight = sled.at(0, 0, 4e-4);
   sight.reaction.force = Vector3d(99, 6, 8);  // along the way it does not press
@@ -126,11 +130,7 @@ TEST(JointFriction, SticksElasticallyAndSlidesByItsBound) {
 }
 
 TEST(JointFriction, WithoutItsSetItWouldStick) {
-  FrictionData data;
-  data.static_coefficient = data.dynamic_coefficient = 0.3;
-  data.preload = 2;
-  data.slip = 1e-3;
-  data.radius = 1;
+  FrictionData data = pin();
   data.inertia = 0.5;
   data.viscous = 0.1;
   const JointFriction friction(data, Vector3d::UnitX());
@@ -154,11 +154,7 @@ TEST(JointFriction, WithoutItsSetItWouldStick) {
 TEST(JointFriction, SpringBreaksAwayWhereItsDamperMakesUpForTheStrain) {
   // Within a long step it has gone back by 50 slips and turned round: spring and damper alone are
   // 50 times the bound each and cancel out.
-  FrictionData data;
-  data.static_coefficient = data.dynamic_coefficient = 0.3;
-  data.preload = 2;
-  data.slip = 1e-3;
-  data.radius = 1;
+  FrictionData data = pin();
   data.inertia = 0.5;
   const JointFriction friction(data, Vector3d::UnitX());
   const double bound = 0.3 * 10 + 2, damping = 2 * std::sqrt(bound / 1e-3 * 0.5);
