@@ -44,6 +44,11 @@ class NumericalError : public Error {
   using Error::Error;
 };
 
+/// A step is too long for what happens within it; a shorter one will do.
+class StepTooLong : public NumericalError {
+  using NumericalError::NumericalError;
+};
+
 /// A file or directory cannot be read or written.
 class IoError : public Error {
   using Error::Error;

@@ -95,12 +95,8 @@ Circumstances circumstances_of(const model::State& state) {
 
 namespace {
 
-joints::CountedValue counted(const model::Model& model, std::size_t coordinate,
-                             const model::RowMemory* memory, double fraction) {
+joints::CountedValue uncounted(const model::Model& model, std::size_t coordinate, double fraction) {
   const joints::JointCoordinate& law = model.coordinates[coordinate].law;
-  if (memory != nullptr && !memory->coordinates.empty()) {
-    return law.follow(memory->coordinates[coordinate], fraction);
-  }
   if (law.is_angle() && std::abs(fraction) > kLargestUncounted) {
     const auto joint = static_cast<std::size_t>(model.coordinates[coordinate].joint);
     throw NumericalError(fmt::format(
@@ -113,13 +109,15 @@ joints::CountedValue counted(const model::Model& model, std::size_t coordinate,
 
 }  // namespace
 
-joints::CountedValue counted_coordinate(const model::Model& model, std::size_t coordinate,
+joints::CountedValue counted_coordinate(const model::Model& model, std::size_t coordinate, double t,
                                         const model::RowMemory* memory,
                                         const spatial::MarkerMotion& first,
                                         const spatial::MarkerMotion& second) {
-  return counted(
-      model, coordinate, memory,
-      model.coordinates[coordinate].law.fraction(first, second, before_of(memory, coordinate)));
+  const joints::JointCoordinate& law = model.coordinates[coordinate].law;
+  const joints::CountedValue* const before = before_of(memory, coordinate);
+  if (before == nullptr) return uncounted(model, coordinate, law.fraction(first, second, nullptr));
+  const joints::CountedValue expected = law.expect(*before, t);
+  return law.follow(expected, law.fraction(first, second, &expected));
 }
 
 JointWrenches wrenches_of(const model::Model& model, const model::Joint& joint, double t,
@@ -130,7 +128,7 @@ JointWrenches wrenches_of(const model::Model& model, const model::Joint& joint, 
   if (!joint.coupled.empty()) {
     const model::CoupledCoordinate& own = joint.coupled[coupled];
     const auto index = static_cast<std::size_t>(own.coordinate);
-    const double value = counted_coordinate(model, index, memory, first, second).value();
+    const double value = counted_coordinate(model, index, t, memory, first, second).value();
     sum = lambda[joint.first_row] * own.term.slope(value) *
           model.coordinates[index].law.derivatives(first, second, before_of(memory, index));
   } else {
@@ -149,24 +147,30 @@ JointWrenches wrenches_of(const model::Model& model, const model::Joint& joint, 
 }
 
 loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t coordinate,
-                                          const model::RowMemory* memory,
+                                          double t, const model::RowMemory* memory,
                                           const spatial::MarkerMotion& first,
                                           const spatial::MarkerMotion& second,
                                           joints::CountedValue* counted_now) {
+  const joints::JointCoordinate& law = model.coordinates[coordinate].law;
   const joints::CountedValue* const at = before_of(memory, coordinate);
-  const joints::CoordinateLook look = model.coordinates[coordinate].law.look(first, second, at);
-  const joints::CountedValue now = counted(model, coordinate, memory, look.fraction);
+  joints::CountedValue expected;
+  if (at != nullptr) expected = law.expect(*at, t);
+  const joints::CoordinateLook look = law.look(first, second, at != nullptr ? &expected : nullptr);
+  const joints::CountedValue now = at != nullptr ? law.follow(expected, look.fraction)
+                                                 : uncounted(model, coordinate, look.fraction);
   if (counted_now != nullptr) {
     // One by one: a copy of the whole waits for what was written in parts.
     counted_now->turns = now.turns;
     counted_now->fraction = now.fraction;
+    counted_now->rate = look.rate;
+    counted_now->t = t;
   }
   loads::CoordinateMotion out;
   out.J = look.J;
   out.rate = look.rate;
   out.value = now.value();
   if (at == nullptr) return out;
-  out.change = joints::difference(*at, now);
+  out.change = spatial::difference(*at, now);
   return out;
 }
 
@@ -180,7 +184,7 @@ loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
     sight.coordinate = travel->coordinate(static_cast<std::size_t>(own.coordinate), around.memory);
     if (has_reaction) sight.reaction = travel->reaction(t, *around.lambda);
   } else if (own.coordinate >= 0) {
-    sight.coordinate = coordinate_motion(model, static_cast<std::size_t>(own.coordinate),
+    sight.coordinate = coordinate_motion(model, static_cast<std::size_t>(own.coordinate), t,
                                          around.memory, first, second);
   }
   if (own.joint >= 0 && travel == nullptr && has_reaction) {
@@ -200,7 +204,7 @@ loads::Sight sight_at_joint(const model::Model& model, std::size_t load, double 
   // Formed in its place: a law at a joint is evaluated in every iteration of a step.
   loads::Sight sight{t, first, second,
                      coordinate >= 0
-                         ? coordinate_motion(model, static_cast<std::size_t>(coordinate),
+                         ? coordinate_motion(model, static_cast<std::size_t>(coordinate), t,
                                              around.memory, first, second, now)
                          : loads::CoordinateMotion{},
                      reaction};

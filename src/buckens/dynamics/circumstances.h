@@ -55,18 +55,19 @@ inline const joints::CountedValue* before_of(const model::RowMemory* memory,
 }
 
 /// Value of a joint coordinate with its turns.
-/// @param first,second motions of its markers
+/// @param t of these motions, @param first,second motions of its markers
 /// @throws NumericalError beyond 3 rad where no memory counts the turns
-joints::CountedValue counted_coordinate(const model::Model& model, std::size_t coordinate,
+joints::CountedValue counted_coordinate(const model::Model& model, std::size_t coordinate, double t,
                                         const model::RowMemory* memory,
                                         const spatial::MarkerMotion& first,
                                         const spatial::MarkerMotion& second);
 
 /// Motion of a joint coordinate.
-/// @param first,second motions of its markers, @param now null, or its value with its turns
+/// @param t of these motions, @param first,second motions of its markers, @param now null, or its
+/// value with its turns
 /// @throws NumericalError beyond 3 rad where no memory counts the turns
 loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t coordinate,
-                                          const model::RowMemory* memory,
+                                          double t, const model::RowMemory* memory,
                                           const spatial::MarkerMotion& first,
                                           const spatial::MarkerMotion& second,
                                           joints::CountedValue* now = nullptr);

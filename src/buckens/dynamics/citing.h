@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
@@ -14,10 +16,16 @@ template <class Work>
 decltype(auto) citing(const model::Joint& joint, double t, Work&& work) {
   try {
     return work();
+  } catch (const StepTooLong& error) {
+    throw StepTooLong(joint.where, fmt::format("joint \"{}\": {}", joint.name, error.text()));
   } catch (const NumericalError& error) {
     throw NumericalError(
         joint.where, fmt::format("joint \"{}\" at t = {:.6g} s: {}", joint.name, t, error.text()));
   }
+}
+
+inline std::string naming(const model::Load& load, const std::string& text) {
+  return fmt::format("{} \"{}\": {}", load.is_among_joints ? "joint" : "load", load.name, text);
 }
 
 /// The same for the law of a load, whose name is enough.
@@ -25,10 +33,10 @@ template <class Work>
 decltype(auto) citing(const model::Load& load, Work&& work) {
   try {
     return work();
+  } catch (const StepTooLong& error) {
+    throw StepTooLong(error.where(), naming(load, error.text()));
   } catch (const NumericalError& error) {
-    const char* what = load.is_among_joints ? "joint" : "load";
-    throw NumericalError(error.where(),
-                         fmt::format("{} \"{}\": {}", what, load.name, error.text()));
+    throw NumericalError(error.where(), naming(load, error.text()));
   }
 }
 

@@ -33,7 +33,7 @@ void evaluate_coupler(const model::Model& model, const model::Joint& joint,
     const auto first = evaluate_marker(model, owner.first, motions);
     const auto second = evaluate_marker(model, owner.second, motions);
     const joints::CountedValue value =
-        counted_coordinate(model, index, memory, first.motion, second.motion);
+        counted_coordinate(model, index, t, memory, first.motion, second.motion);
     const joints::CoordinateTerm& term = joint.coupled[k].term;
     sum.add(term, value);
     const spatial::PairRow J =
@@ -96,7 +96,7 @@ double coupler_bias(const model::Model& model, const model::Joint& joint,
     const model::Joint& owner = model.joints[static_cast<std::size_t>(coordinate.joint)];
     const spatial::MarkerMotion F = evaluate_marker(model, owner.first, motions).motion;
     const spatial::MarkerMotion M = evaluate_marker(model, owner.second, motions).motion;
-    const double value = counted_coordinate(model, index, memory, F, M).value();
+    const double value = counted_coordinate(model, index, t, memory, F, M).value();
     const joints::CountedValue* const before = before_of(memory, index);
     const double rate = coordinate.law.derivatives(F, M, before).dot(twists(F, M));
     out += coupled.term.slope(value) *

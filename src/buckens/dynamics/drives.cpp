@@ -94,8 +94,8 @@ class SignalMotions {
       case Signal::Kind::formula:
         return rate_of(own.input);
       case Signal::Kind::coordinate:
-        return coordinate_motion(model_, static_cast<std::size_t>(own.coordinate), around_.memory,
-                                 motions_)
+        return coordinate_motion(model_, static_cast<std::size_t>(own.coordinate), now_.values[0],
+                                 around_.memory, motions_)
             .rate;
       case Signal::Kind::position:
         return own.along.dot(evaluate_marker(model_, own.marker, motions_).motion.v);

@@ -169,7 +169,7 @@ void JointSet::evaluate_coupler(const Joint& joint, const std::vector<BodyMotion
     const spatial::MarkerMotion first = F.marker(own.first);
     const spatial::MarkerMotion second = M.marker(own.second);
     const joints::CountedValue value =
-        counted_coordinate(model_, own.coordinate, memory, first, second);
+        counted_coordinate(model_, own.coordinate, t, memory, first, second);
     sum.add(*own.term, value);
     const spatial::PairRow J =
         own.term->slope(value.value()) * model_.coordinates[own.coordinate].law.derivatives(
@@ -205,7 +205,7 @@ void JointSet::evaluate_slider(const model::Joint& joint, const std::vector<Body
   }
 }
 
-void JointSet::derive_coupler(const Joint& joint, const std::vector<BodyMotion>& motions,
+void JointSet::derive_coupler(const Joint& joint, const std::vector<BodyMotion>& motions, double t,
                               const model::RowMemory* memory, SystemRow& out) const {
   out.more.resize(2 * joint.num_coupled - 2);
   for (std::size_t k = 0; k < joint.num_coupled; ++k) {
@@ -214,7 +214,8 @@ void JointSet::derive_coupler(const Joint& joint, const std::vector<BodyMotion>&
     const Motion M = motion_of(own.second, motions);
     const spatial::MarkerMotion first = F.marker(own.first);
     const spatial::MarkerMotion second = M.marker(own.second);
-    const double value = counted_coordinate(model_, own.coordinate, memory, first, second).value();
+    const double value =
+        counted_coordinate(model_, own.coordinate, t, memory, first, second).value();
     const spatial::PairRow J =
         own.term->slope(value) * model_.coordinates[own.coordinate].law.derivatives(
                                      first, second, before_of(memory, own.coordinate));
@@ -325,7 +326,7 @@ void JointSet::derive_held(std::size_t joint, const std::vector<BodyMotion>& mot
   const Joint& own = joints_[joint];
   if (own.num_coupled > 0) {
     out[0].travelling = -1;
-    return derive_coupler(own, motions, memory, out[0]);
+    return derive_coupler(own, motions, t, memory, out[0]);
   }
   if (own.slider != nullptr) {
     const Travel travel(model_, *own.slider, motions, memory);

@@ -167,7 +167,7 @@ class JointSet {
                        const linalg::Vector* lambda, Forces* forces) const;
   void derive_held(std::size_t joint, const std::vector<BodyMotion>& motions, double t,
                    const model::RowMemory* memory, std::array<SystemRow, kMostRows>& out) const;
-  void derive_coupler(const Joint& joint, const std::vector<BodyMotion>& motions,
+  void derive_coupler(const Joint& joint, const std::vector<BodyMotion>& motions, double t,
                       const model::RowMemory* memory, SystemRow& out) const;
 
   const model::Model& model_;

@@ -155,6 +155,8 @@ void JointSet::act(const Joint& joint, const Look& look, double t, const Laws& w
       end.is_known = true;
       end.value.turns = coordinate.turns;
       end.value.fraction = coordinate.fraction;
+      end.value.rate = coordinate.rate;
+      end.value.t = coordinate.t;
     }
     const int regime = add_response(law, sight, with.ends, wrenches, forces);
     if (units != nullptr && law.follows != nullptr) {

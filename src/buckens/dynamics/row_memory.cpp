@@ -30,17 +30,30 @@ std::vector<Markers>& markers_of_coordinates() {
   return room;
 }
 
-double fraction_of(const model::Model& model, const model::Coordinate& coordinate,
-                   const std::vector<BodyMotion>& motions, const model::RowMemory* memory,
-                   const joints::CountedValue* before = nullptr, Markers* seen = nullptr) {
-  Markers own;
-  Markers& markers = seen != nullptr ? *seen : own;
+/// @param expected where it is to be, null: not known
+joints::CoordinateLook look_at(const model::Model& model, const model::Coordinate& coordinate,
+                               const std::vector<BodyMotion>& motions,
+                               const model::RowMemory* memory, const joints::CountedValue* expected,
+                               Markers& markers) {
   const model::Joint* const slider = slider_of(model, coordinate);
   markers.are_known = slider == nullptr;
-  if (slider != nullptr) return Travel(model, *slider, motions, memory).displacement();
+  if (slider != nullptr) {
+    joints::CoordinateLook out;
+    out.fraction = Travel(model, *slider, motions, memory).displacement();
+    return out;
+  }
   markers.first = evaluate_marker(model, coordinate.first, motions).motion;
   markers.second = evaluate_marker(model, coordinate.second, motions).motion;
-  return coordinate.law.fraction(markers.first, markers.second, before);
+  return coordinate.law.look(markers.first, markers.second, expected);
+}
+
+/// Says that a coordinate cannot be followed through a step.
+void require_followed(const model::Model& model, const model::Coordinate& coordinate,
+                      const joints::CountedValue& before, const joints::CountedValue& after) {
+  const double turn = coordinate.law.turn();
+  if (turn == 0.0 || spatial::is_countable(before, after, turn)) return;
+  const std::string& name = model.joints[static_cast<std::size_t>(coordinate.joint)].name;
+  spatial::require_countable(before, after, turn, fmt::format("joint \"{}\"", name));
 }
 
 /// Where a slider is on its beam.
@@ -96,7 +109,7 @@ void follow_rows(const model::Model& model, const std::vector<BodyMotion>& motio
       citing(joint, t, [&] {
         law->follow(evaluate_marker(model, joint.first, motions).motion,
                     evaluate_marker(model, joint.second, motions).motion,
-                    lambda != nullptr && lambda->size() > 0 ? (*lambda)[row] : 0.0,
+                    lambda != nullptr && lambda->size() > 0 ? (*lambda)[row] : 0.0, t,
                     before == nullptr ? nullptr : before + state, after.data() + state);
       });
       state += law->num_states();
@@ -106,19 +119,19 @@ void follow_rows(const model::Model& model, const std::vector<BodyMotion>& motio
 
 }  // namespace
 
-bool follow_reactions(const model::Model& model, const std::vector<BodyMotion>& motions,
+bool follow_reactions(const model::Model& model, const std::vector<BodyMotion>& motions, double t,
                       const linalg::Vector& lambda, model::RowMemory& memory) {
   if (memory.rows.size() == 0) return false;
   const linalg::Vector before = memory.rows;
-  follow_rows(model, motions, 0.0, &lambda, &memory.released, before.data(), memory.rows);
+  follow_rows(model, motions, t, &lambda, &memory.released, before.data(), memory.rows);
   return memory.rows != before;
 }
 
 model::RowMemory memory_at_rest(const model::Model& model, const std::vector<BodyMotion>& motions,
-                                const linalg::Vector& lambda) {
+                                double t, const linalg::Vector& lambda) {
   model::RowMemory out;
   out.rows = linalg::Vector::Zero(model.num_row_states());
-  follow_reactions(model, motions, lambda, out);
+  follow_reactions(model, motions, t, lambda, out);
   return out;
 }
 
@@ -127,7 +140,10 @@ model::RowMemory start_memory(const model::Model& model, const std::vector<BodyM
   model::RowMemory out;
   out.released = released;
   for (const model::Coordinate& coordinate : model.coordinates) {
-    out.coordinates.push_back({0, fraction_of(model, coordinate, motions, nullptr)});
+    Markers markers;
+    const joints::CoordinateLook look =
+        look_at(model, coordinate, motions, nullptr, nullptr, markers);
+    out.coordinates.push_back({0, look.fraction, look.rate, 0.0});
   }
   out.laws = linalg::Vector::Zero(model.num_law_states());
   out.rows = linalg::Vector::Zero(model.num_row_states());
@@ -158,14 +174,18 @@ void advance_memory(const model::Model& model, const std::vector<BodyMotion>& mo
   out.coordinates.resize(before.coordinates.size());
   for (std::size_t k = 0; k < before.coordinates.size(); ++k) {
     seen[k].are_known = false;
+    const model::Coordinate& coordinate = model.coordinates[k];
     if (known != nullptr && known->knows_coordinate(k)) {
       out.coordinates[k] = known->coordinates[k].value;
-      continue;
+    } else {
+      const joints::JointCoordinate& law = coordinate.law;
+      const joints::CountedValue expected = law.expect(before.coordinates[k], t);
+      const joints::CoordinateLook look =
+          look_at(model, coordinate, motions, &before, &expected, seen[k]);
+      out.coordinates[k] = law.follow(expected, look.fraction);
+      out.coordinates[k].rate = look.rate;
     }
-    const model::Coordinate& coordinate = model.coordinates[k];
-    out.coordinates[k] = coordinate.law.follow(
-        before.coordinates[k],
-        fraction_of(model, coordinate, motions, &before, &before.coordinates[k], &seen[k]));
+    require_followed(model, coordinate, before.coordinates[k], out.coordinates[k]);
   }
   out.rows.resize(before.rows.size());
   if (before.rows.size() > 0) {
@@ -198,7 +218,7 @@ void advance_memory(const model::Model& model, const std::vector<BodyMotion>& mo
       continue;
     }
     const LoadEnds& ends = in_turn.of(load);
-    load.element->find_states(sight_of(model, k, t, around, ends), states);
+    citing(load, [&] { load.element->find_states(sight_of(model, k, t, around, ends), states); });
   }
   advance_near(model, motions, t, around, out);
   advance_signals(model, motions, t, around, out);

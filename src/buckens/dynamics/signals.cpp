@@ -105,7 +105,7 @@ class Evaluation {
       return read_motion(model_, *signal.reading, motions_, t_, around_);
     }
     const loads::CoordinateMotion motion = coordinate_motion(
-        model_, static_cast<std::size_t>(signal.coordinate), around_.memory, motions_);
+        model_, static_cast<std::size_t>(signal.coordinate), t_, around_.memory, motions_);
     const bool is_shifted = signal.coordinate == shift_.coordinate;
     return signal.kind == Signal::Kind::coordinate
                ? motion.value + (is_shifted ? shift_.value : 0.0)

@@ -222,13 +222,13 @@ void add_to_others(const model::Model& model, std::size_t load, double t,
 }
 
 loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t coordinate,
-                                          const model::RowMemory* memory,
+                                          double t, const model::RowMemory* memory,
                                           const std::vector<BodyMotion>& motions) {
   const model::Coordinate& own = model.coordinates[coordinate];
   if (const model::Joint* slider = slider_of(model, own)) {
     return Travel(model, *slider, motions, memory).coordinate(coordinate, memory);
   }
-  return coordinate_motion(model, coordinate, memory,
+  return coordinate_motion(model, coordinate, t, memory,
                            evaluate_marker(model, own.first, motions).motion,
                            evaluate_marker(model, own.second, motions).motion);
 }

@@ -137,9 +137,9 @@ void add_to_others(const model::Model& model, std::size_t load, double t,
                    const Circumstances& around, const LoadEnds& ends,
                    std::span<spatial::Wrench> wrenches);
 
-/// Motion of a joint coordinate of any joint.
+/// Motion of a joint coordinate of any joint. @param t of these motions
 loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t coordinate,
-                                          const model::RowMemory* memory,
+                                          double t, const model::RowMemory* memory,
                                           const std::vector<BodyMotion>& motions);
 
 }  // namespace buckens::dynamics

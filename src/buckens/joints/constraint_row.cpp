@@ -166,7 +166,7 @@ double ConstraintRow::distance_bias(const Vector3d& r, const Vector3d& r_dot,
 
 RowValue ConstraintRow::evaluate(const MarkerMotion& F, const MarkerMotion& M, double t,
                                  const double* states) const {
-  if (own_) return own_->evaluate(F, M, states);
+  if (own_) return own_->evaluate(F, M, t, states);
   RowValue out;
   const Vector3d r = M.p - F.p;
   switch (kind_) {
@@ -237,7 +237,7 @@ void ConstraintRow::evaluate_coupling(const MarkerMotion& F, const MarkerMotion&
 
 double ConstraintRow::bias(const MarkerMotion& F, const MarkerMotion& M, const MarkerBias& bias_F,
                            const MarkerBias& bias_M, double t, const double* states) const {
-  if (own_) return own_->bias(F, M, bias_F, bias_M, states);
+  if (own_) return own_->bias(F, M, bias_F, bias_M, t, states);
   const Vector3d r = M.p - F.p;
   const Vector3d r_dot = M.v - F.v;
   const Vector3d a = bias_M.a - bias_F.a;

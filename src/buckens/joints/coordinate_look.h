@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "buckens/spatial/counted_value.h"
 #include "buckens/spatial/marker_motion.h"
 
 namespace buckens::joints {
 
-/// A coordinate with whole turns stored separately, so that many turns do not cost digits.
-struct CountedValue {
-  int turns = 0;        ///< of an angle; 0 of a displacement
-  double fraction = 0;  ///< angle within the turn, −π … π [rad], or displacement [m]
-
-  /// The whole angle [rad] or displacement [m].
-  double value() const;
-};
+using spatial::CountedValue;
+using spatial::kTurn;
 
 /// A coordinate at one instant.
 struct CoordinateLook {

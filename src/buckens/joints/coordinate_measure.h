@@ -13,8 +13,10 @@ class CoordinateMeasure {
   virtual ~CoordinateMeasure() = default;
   /// Whether it is an angle [rad] rather than a length [m].
   virtual bool is_angle() const = 0;
-  /// @param before value at the previous step, needed where a curve crosses itself; null: the point
-  ///        nearest of all
+  /// After what it repeats, so that turns must be counted [rad] or [m]; 0: it does not.
+  virtual double turn() const { return is_angle() ? kTurn : 0.0; }
+  /// @param before value at the previous step, or where it is to be expected, needed where turns
+  ///        are counted or a curve crosses itself; null: the point nearest of all
   virtual CoordinateLook look(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
                               const CountedValue* before) const = 0;
   /// Part of its acceleration that is independent of the accelerations of the bodies' coordinates.

@@ -17,10 +17,10 @@ std::array<double, FlankGap::kMostStates> FlankGap::states() const {
 
 CoordinateLook FlankGap::look(const MarkerMotion& F, const MarkerMotion& M,
                               const CountedValue* before) const {
-  const RowValue row = data_.mesh->evaluate(F, M, states().data());
+  const RowValue row = data_.mesh->evaluate(F, M, 0.0, states().data());
   const double half = 0.5 * data_.play;
   // Without a flank both sides see the same, also where centres have moved.
-  const double passed = before == nullptr ? data_.mesh->evaluate(F, M, nullptr).g
+  const double passed = before == nullptr ? data_.mesh->evaluate(F, M, 0.0, nullptr).g
                                           : row.g - data_.side * (half - before->fraction);
   const double g = row.g - data_.period * std::round(passed / data_.period);
   CoordinateLook out;
@@ -32,7 +32,7 @@ CoordinateLook FlankGap::look(const MarkerMotion& F, const MarkerMotion& M,
 
 double FlankGap::bias(const MarkerMotion& F, const MarkerMotion& M, const MarkerBias& bias_F,
                       const MarkerBias& bias_M, const CountedValue* /*before*/) const {
-  return -data_.side * data_.mesh->bias(F, M, bias_F, bias_M, states().data());
+  return -data_.side * data_.mesh->bias(F, M, bias_F, bias_M, 0.0, states().data());
 }
 
 }  // namespace buckens::joints

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "buckens/joints/coordinate_measure.h"
-#include "buckens/joints/row_law.h"
+#include "buckens/joints/gear_mesh.h"
 
 namespace buckens::joints {
 
@@ -34,7 +34,7 @@ class FlankGap final : public CoordinateMeasure {
               const CountedValue* before) const override;
 
  private:
-  static constexpr std::size_t kMostStates = 5;
+  static constexpr std::size_t kMostStates = GearMesh::kStates;
   /// Of the row: nothing is known but that this flank carries.
   std::array<double, kMostStates> states() const;
 

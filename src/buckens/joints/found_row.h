@@ -20,14 +20,14 @@ class FoundRow final : public RowLaw {
   int num_states() const override { return 1 + row_.num_states(); }
   bool turns_second() const override { return row_.turns_second(); }
   bool is_length() const override { return row_.is_length(); }
-  RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+  RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double t,
                     const double* states) const override;
   double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
-              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M,
+              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M, double t,
               const double* states) const override;
   void follow(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double lambda,
-              const double* before, double* after) const override;
-  void attach(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+              double t, const double* before, double* after) const override;
+  void attach(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double t,
               double* states) const override;
 
  private:

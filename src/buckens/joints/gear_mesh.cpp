@@ -22,15 +22,26 @@ double angle_between(const Vector3d& axis, const Vector3d& x, const Vector3d& y)
   return std::atan2(axis.cross(x).dot(y), x.dot(y));
 }
 
-/// A counted angle among the states of a row.
-CountedValue counted(const double* states, double fraction) {
-  if (states == nullptr) return {0, fraction};
-  return follow_turns({static_cast<int>(states[0]), states[1]}, fraction);
+// A counted angle among the states of a row: turns, fraction and rate. The instant is shared.
+constexpr int kAngleStates = 3;
+
+CountedValue read_angle(const double* states, double then) {
+  return {static_cast<int>(states[0]), states[1], states[2], then};
 }
 
-void store(const CountedValue& value, double* states) {
-  states[0] = value.turns;
-  states[1] = value.fraction;
+/// @param states null: no turns yet, @param then their instant
+CountedValue counted(const double* states, double then, double fraction, double t) {
+  if (states == nullptr) return {0, fraction, 0.0, t};
+  return follow_turns(expected_at(read_angle(states, then), t), fraction);
+}
+
+/// @param before may be null, or `after`
+void follow_angle(const CountedValue& now, const char* what, const double* before, double then,
+                  double* after) {
+  if (before != nullptr) require_countable(read_angle(before, then), now, kTurn, what);
+  after[0] = now.turns;
+  after[1] = now.fraction;
+  after[2] = now.rate;
 }
 
 /// The flank that carries; that of before where nothing is carried.
@@ -89,7 +100,7 @@ GearMesh::GearMesh(const Data& data) : axis_F_(data.axis_F), sizes_(data.sizes) 
   if (data.pressure_angle > 0.0) flank_sign_ = data.same_sense ? -1.0 : 1.0;
 }
 
-GearMesh::View GearMesh::look(const MarkerMotion& F, const MarkerMotion& M,
+GearMesh::View GearMesh::look(const MarkerMotion& F, const MarkerMotion& M, double t,
                               const double* states) const {
   View out;
   out.a = F.R * axis_F_;
@@ -100,22 +111,23 @@ GearMesh::View GearMesh::look(const MarkerMotion& F, const MarkerMotion& M,
   out.u = across / out.C;
   out.v = out.a.cross(out.u);
   out.x2 = M.R * u_M_;
-  const double* const second = states == nullptr ? nullptr : states + 2;
-  out.first = counted(states, -angle_between(out.a, F.R * u_F_, out.u));
-  out.second = counted(second, angle_between(out.a, out.u, out.x2));
+  const double* const second = states == nullptr ? nullptr : states + kAngleStates;
+  const double then = states == nullptr ? t : states[kInstant];
+  out.first = counted(states, then, -angle_between(out.a, F.R * u_F_, out.u), t);
+  out.second = counted(second, then, angle_between(out.a, out.u, out.x2), t);
   out.k1 = base_ * sizes_[0];
   out.k2 = base_ * sizes_[1];
   // An iteration may look at centres so near that base circles overlap; follow() refuses that.
   const bool is_apart = out.C > touching_ && flank_sign_ != 0.0;
-  out.flank = states == nullptr || !is_apart ? 0.0 : flank_sign_ * states[4];
+  out.flank = states == nullptr || !is_apart ? 0.0 : flank_sign_ * states[kFlank];
   out.sine = is_apart ? std::sqrt(1.0 - std::pow(touching_ / out.C, 2)) : 0.0;
   out.n = -(out.k1 + out.k2) / out.C * out.v + out.flank * out.sine * out.u + axial_ * out.a;
   return out;
 }
 
-RowValue GearMesh::evaluate(const MarkerMotion& F, const MarkerMotion& M,
+RowValue GearMesh::evaluate(const MarkerMotion& F, const MarkerMotion& M, double t,
                             const double* states) const {
-  const View at = look(F, M, states);
+  const View at = look(F, M, t, states);
   TurnSum turns;
   turns.add(sizes_[0], at.first);
   turns.add(sizes_[1], at.second);
@@ -132,8 +144,8 @@ RowValue GearMesh::evaluate(const MarkerMotion& F, const MarkerMotion& M,
 }
 
 double GearMesh::bias(const MarkerMotion& F, const MarkerMotion& M, const MarkerBias& bias_F,
-                      const MarkerBias& bias_M, const double* states) const {
-  const View at = look(F, M, states);
+                      const MarkerBias& bias_M, double t, const double* states) const {
+  const View at = look(F, M, t, states);
   const Vector3d rate = M.v - F.v - F.w.cross(at.r);
   const double C_dot = at.u.dot(rate);
   const double turn = at.v.dot(rate) / at.C;  // of the line of centres, seen from F
@@ -148,19 +160,25 @@ double GearMesh::bias(const MarkerMotion& F, const MarkerMotion& M, const Marker
   return out;
 }
 
-void GearMesh::follow(const MarkerMotion& F, const MarkerMotion& M, double lambda,
+void GearMesh::follow(const MarkerMotion& F, const MarkerMotion& M, double lambda, double t,
                       const double* before, double* after) const {
-  const View at = look(F, M, before);
+  View at = look(F, M, t, before);
   if (flank_sign_ != 0.0 && !(at.C > touching_)) {
     throw NumericalError(fmt::format(
         "the centres of the gears have come within {:.6g} m of each other, where their base "
         "circles touch (they were placed {:.6g} m apart); hold their shafts",
         touching_, distance_));
   }
-  const double flank = before == nullptr ? 0.0 : before[4];
-  store(at.first, after);
-  store(at.second, after + 2);
-  after[4] = flank_after(lambda, flank);
+  const double turn = at.v.dot(M.v - F.v - F.w.cross(at.r)) / at.C;  // of the line of centres
+  at.first.rate = -turn;
+  at.second.rate = RelativeTurn(at.a, at.x2).derivative().dot(M.w - F.w) - turn;
+  const double flank = before == nullptr ? 0.0 : before[kFlank];
+  const double then = before == nullptr ? t : before[kInstant];
+  const double* const second = before == nullptr ? nullptr : before + kAngleStates;
+  follow_angle(at.first, "the speed of its first wheel", before, then, after);
+  follow_angle(at.second, "the speed of its second wheel", second, then, after + kAngleStates);
+  after[kInstant] = t;
+  after[kFlank] = flank_after(lambda, flank);
 }
 
 RackMesh::RackMesh(const Data& data)
@@ -177,36 +195,41 @@ RackMesh::RackMesh(const Data& data)
   base_ = data.radius * cosine;
 }
 
-CountedValue RackMesh::angle(const MarkerMotion& F, const MarkerMotion& M,
+CountedValue RackMesh::angle(const MarkerMotion& F, const MarkerMotion& M, double t,
                              const double* states) const {
-  return counted(states, angle_between(F.R * axis_F_, F.R * x_F_, M.R * x_M_));
+  return counted(states, states == nullptr ? t : states[kInstant],
+                 angle_between(F.R * axis_F_, F.R * x_F_, M.R * x_M_), t);
 }
 
 Vector3d RackMesh::line_of_action(const double* states) const {
-  return driving_ + (states == nullptr ? 0.0 : states[2]) * separating_;
+  return driving_ + (states == nullptr ? 0.0 : states[kFlank]) * separating_;
 }
 
-RowValue RackMesh::evaluate(const MarkerMotion& F, const MarkerMotion& M,
+RowValue RackMesh::evaluate(const MarkerMotion& F, const MarkerMotion& M, double t,
                             const double* states) const {
   const Vector3d r = M.p - F.p;
   const Vector3d n_F = line_of_action(states);
   RowValue out;
-  out.g = base_ * angle(F, M, states).value() + n_F.dot(F.R.transpose() * r - r_F_);
+  out.g = base_ * angle(F, M, t, states).value() + n_F.dot(F.R.transpose() * r - r_F_);
   out.J = pair_row(r, F.R * n_F, base_ * RelativeTurn(F.R * axis_F_, M.R * x_M_).derivative());
   return out;
 }
 
 double RackMesh::bias(const MarkerMotion& F, const MarkerMotion& M, const MarkerBias& bias_F,
-                      const MarkerBias& bias_M, const double* states) const {
+                      const MarkerBias& bias_M, double /*t*/, const double* states) const {
   return (F.R * line_of_action(states)).dot(relative_bias(F, M, bias_F, bias_M)) +
          base_ * RelativeTurn(F.R * axis_F_, M.R * x_M_).bias(F, M, bias_F, bias_M);
 }
 
-void RackMesh::follow(const MarkerMotion& F, const MarkerMotion& M, double lambda,
+void RackMesh::follow(const MarkerMotion& F, const MarkerMotion& M, double lambda, double t,
                       const double* before, double* after) const {
-  const double flank = before == nullptr ? 0.0 : before[2];
-  store(angle(F, M, before), after);
-  after[2] = flank_after(lambda, flank);
+  const double flank = before == nullptr ? 0.0 : before[kFlank];
+  const double then = before == nullptr ? t : before[kInstant];
+  CountedValue now = angle(F, M, t, before);
+  now.rate = RelativeTurn(F.R * axis_F_, M.R * x_M_).derivative().dot(M.w - F.w);
+  follow_angle(now, "the speed of its pinion", before, then, after);
+  after[kInstant] = t;
+  after[kFlank] = flank_after(lambda, flank);
 }
 
 }  // namespace buckens::joints

@@ -40,21 +40,23 @@ class GearMesh final : public RowLaw {
   /// @throws ModelError if the centres coincide across the axis
   explicit GearMesh(const Data& data);
 
-  int num_states() const override { return 5; }
-  RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+  // Both angles, the instant to which they belong, and which flank carries.
+  static constexpr int kInstant = 6, kFlank = 7, kStates = 8;
+  int num_states() const override { return kStates; }
+  RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double t,
                     const double* states) const override;
   double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
-              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M,
+              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M, double t,
               const double* states) const override;
   void follow(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double lambda,
-              const double* before, double* after) const override;
+              double t, const double* before, double* after) const override;
 
   /// From tooth to tooth along the line of action [m].
   double pitch() const { return 2.0 * std::numbers::pi * base_; }
 
  private:
   struct View;
-  View look(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+  View look(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double t,
             const double* states) const;
 
   Eigen::Vector3d axis_F_, u_F_, u_M_;  // u: from first to second centre as placed
@@ -86,20 +88,22 @@ class RackMesh final : public RowLaw {
   };
   explicit RackMesh(const Data& data);
 
-  int num_states() const override { return 3; }
-  RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+  // The angle, the instant to which it belongs, and which flank carries.
+  static constexpr int kInstant = 3, kFlank = 4, kStates = 5;
+  int num_states() const override { return kStates; }
+  RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double t,
                     const double* states) const override;
   double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
-              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M,
+              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M, double t,
               const double* states) const override;
   void follow(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double lambda,
-              const double* before, double* after) const override;
+              double t, const double* before, double* after) const override;
 
   /// What a turn of the pinion adds along the line of action [m].
   double turn() const { return 2.0 * std::numbers::pi * base_; }
 
  private:
-  CountedValue angle(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+  CountedValue angle(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double t,
                      const double* states) const;
   Eigen::Vector3d line_of_action(const double* states) const;
 

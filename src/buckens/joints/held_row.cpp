@@ -41,7 +41,7 @@ Vector3d HeldRow::held(const double* states) const {
   return {states[1], states[2], states[3]};
 }
 
-RowValue HeldRow::evaluate(const MarkerMotion& F, const MarkerMotion& M,
+RowValue HeldRow::evaluate(const MarkerMotion& F, const MarkerMotion& M, double /*t*/,
                            const double* states) const {
   RowValue out;
   const Vector3d b = F.R * b_F_;
@@ -61,7 +61,7 @@ RowValue HeldRow::evaluate(const MarkerMotion& F, const MarkerMotion& M,
 }
 
 double HeldRow::bias(const MarkerMotion& F, const MarkerMotion& M, const MarkerBias& bias_F,
-                     const MarkerBias& bias_M, const double* states) const {
+                     const MarkerBias& bias_M, double /*t*/, const double* states) const {
   const Vector3d b = F.R * b_F_;
   if (is_place_) return b.dot(relative_bias(F, M, bias_F, bias_M));
   const Vector3d c = M.R * held(states);
@@ -72,11 +72,12 @@ double HeldRow::bias(const MarkerMotion& F, const MarkerMotion& M, const MarkerB
 }
 
 void HeldRow::follow(const MarkerMotion& /*F*/, const MarkerMotion& /*M*/, double /*lambda*/,
-                     const double* before, double* after) const {
+                     double /*t*/, const double* before, double* after) const {
   store(held(before), after);
 }
 
-void HeldRow::attach(const MarkerMotion& F, const MarkerMotion& M, double* states) const {
+void HeldRow::attach(const MarkerMotion& F, const MarkerMotion& M, double /*t*/,
+                     double* states) const {
   store(is_place_ ? Vector3d(F.R.transpose() * (M.p - F.p))
                   : Vector3d(M.R.transpose() * (F.R * c_F_)),
         states);

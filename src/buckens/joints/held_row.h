@@ -22,14 +22,14 @@ class HeldRow final : public RowLaw {
   int num_states() const override { return 4; }
   bool turns_second() const override { return !is_place_; }
   bool is_length() const override { return is_place_; }
-  RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+  RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double t,
                     const double* states) const override;
   double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
-              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M,
+              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M, double t,
               const double* states) const override;
   void follow(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double lambda,
-              const double* before, double* after) const override;
-  void attach(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+              double t, const double* before, double* after) const override;
+  void attach(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double t,
               double* states) const override;
 
  private:

@@ -2,7 +2,6 @@
 #include "buckens/joints/joint_coordinate.h"
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "buckens/joints/gap_law.h"
@@ -13,19 +12,11 @@ using Eigen::Vector3d;
 using spatial::MarkerMotion;
 
 namespace {
-constexpr double kTurn = 2.0 * std::numbers::pi;
-
 /// R v, written out: Eigen calls a function for it, and friction needs many.
 inline Vector3d axes_times(const Eigen::Matrix3d& R, const Vector3d& v) {
   return R.col(0) * v[0] + R.col(1) * v[1] + R.col(2) * v[2];
 }
 }  // namespace
-
-double CountedValue::value() const { return kTurn * turns + fraction; }
-
-double difference(const CountedValue& from, const CountedValue& to) {
-  return kTurn * (to.turns - from.turns) + (to.fraction - from.fraction);
-}
 
 JointCoordinate JointCoordinate::angle(const Vector3d& axis_F, const Eigen::Matrix3d& R_FM_placed) {
   return first_angle(axis_F, axis_F.unitOrthogonal(), R_FM_placed);
@@ -36,6 +27,7 @@ JointCoordinate JointCoordinate::first_angle(const Vector3d& arm_F, const Vector
   JointCoordinate out;
   out.kind_ = Kind::angle;
   out.is_angle_ = true;
+  out.turn_ = kTurn;
   out.axis_F_ = arm_F;
   out.x_F_ = other_F;
   out.x_M_ = R_FM_placed.transpose() * other_F;
@@ -47,6 +39,7 @@ JointCoordinate JointCoordinate::second_angle(const Vector3d& arm_F, const Vecto
   JointCoordinate out;
   out.kind_ = Kind::second_angle;
   out.is_angle_ = true;
+  out.turn_ = kTurn;
   out.axis_F_ = other_F;
   out.axis_M_ = R_FM_placed.transpose() * other_F;
   out.x_F_ = arm_F;
@@ -79,6 +72,7 @@ JointCoordinate JointCoordinate::measured(std::shared_ptr<const CoordinateMeasur
   JointCoordinate out;
   out.kind_ = Kind::measured;
   out.is_angle_ = measure->is_angle();
+  out.turn_ = measure->turn();
   out.axis_F_.setZero();
   out.measure_ = std::move(measure);
   return out;
@@ -182,17 +176,9 @@ double JointCoordinate::bias(const MarkerMotion& F, const MarkerMotion& M,
   return axis_bias.dot(M.p - F.p) + 2.0 * axis_rate.dot(M.v - F.v) + axis.dot(bias_M.a - bias_F.a);
 }
 
-CountedValue JointCoordinate::follow(const CountedValue& before, double fraction) const {
-  if (!is_angle()) return {before.turns, fraction};
-  return follow_turns(before, fraction);
-}
-
-CountedValue follow_turns(const CountedValue& before, double fraction) {
-  CountedValue out{before.turns, fraction};
-  const double jump = fraction - before.fraction;
-  if (jump > 0.5 * kTurn) --out.turns;
-  if (jump < -0.5 * kTurn) ++out.turns;
-  return out;
+CountedValue JointCoordinate::follow(const CountedValue& expected, double fraction) const {
+  if (is_angle()) return follow_turns(expected, fraction);
+  return {expected.turns, fraction, expected.rate, expected.t};
 }
 
 }  // namespace buckens::joints

@@ -41,10 +41,13 @@ class JointCoordinate {
   Kind kind() const { return kind_; }
   /// Whether it is an angle [rad] rather than a length [m].
   bool is_angle() const { return is_angle_; }
+  /// After what it repeats, so that turns must be counted [rad] or [m]; 0: it does not.
+  double turn() const { return turn_; }
   /// The axis in F; of a second angle as placed; zero if there is no axis.
   const Eigen::Vector3d& axis() const { return axis_F_; }
 
-  // Of measured coordinates, `before` says where they were a step before; null: not known.
+  // Of measured coordinates, `before` says where they were a step before or are to be expected;
+  // null: not known.
 
   /// Angle within the turn [rad], displacement, length or gap [m].
   double fraction(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
@@ -62,8 +65,13 @@ class JointCoordinate {
               const CountedValue* before = nullptr) const;
   /// The law of a gap, otherwise null.
   const GapLaw* gap_law() const { return gap_.get(); }
-  /// The counted value closest to `before`.
-  CountedValue follow(const CountedValue& before, double fraction) const;
+  /// Where it is to be expected at t; what counts no turns, where it was.
+  CountedValue expect(const CountedValue& before, double t) const {
+    if (turn_ > 0.0) return spatial::expected_at(before, t);
+    return {before.turns, before.fraction, before.rate, t};
+  }
+  /// The counted value closest to the one expected.
+  CountedValue follow(const CountedValue& expected, double fraction) const;
 
  private:
   /// The current axis.
@@ -74,6 +82,7 @@ class JointCoordinate {
 
   Kind kind_ = Kind::displacement;
   bool is_angle_ = false;
+  double turn_ = 0;
   Eigen::Vector3d axis_F_ = Eigen::Vector3d::UnitZ();
   Eigen::Vector3d x_F_ = Eigen::Vector3d::UnitX();     // of an angle: perpendicular to the axis
   Eigen::Vector3d x_M_ = Eigen::Vector3d::UnitX();     // its image in M as placed
@@ -82,12 +91,5 @@ class JointCoordinate {
   std::shared_ptr<const GapLaw> gap_;                  // of a gap
   std::shared_ptr<const CoordinateMeasure> measure_;   // of what is measured
 };
-
-/// The counted angle that is nearest to `before`.
-/// @param fraction within the turn, −π … π [rad]
-CountedValue follow_turns(const CountedValue& before, double fraction);
-
-/// Difference between two values of a coordinate, with all digits.
-double difference(const CountedValue& from, const CountedValue& to);
 
 }  // namespace buckens::joints

@@ -66,7 +66,7 @@ CurveTouch PathRow::look(const MarkerMotion& F, const MarkerMotion& M, const dou
   return out;
 }
 
-RowValue PathRow::evaluate(const MarkerMotion& F, const MarkerMotion& M,
+RowValue PathRow::evaluate(const MarkerMotion& F, const MarkerMotion& M, double /*t*/,
                            const double* states) const {
   const CurveTouch at = look(F, M, states);
   RowValue out;
@@ -76,11 +76,11 @@ RowValue PathRow::evaluate(const MarkerMotion& F, const MarkerMotion& M,
 }
 
 double PathRow::bias(const MarkerMotion& F, const MarkerMotion& M, const MarkerBias& bias_F,
-                     const MarkerBias& bias_M, const double* states) const {
+                     const MarkerBias& bias_M, double /*t*/, const double* states) const {
   return look(F, M, states).bias(F, M, bias_F, bias_M, across_);
 }
 
-void PathRow::follow(const MarkerMotion& F, const MarkerMotion& M, double /*lambda*/,
+void PathRow::follow(const MarkerMotion& F, const MarkerMotion& M, double /*lambda*/, double /*t*/,
                      const double* before, double* after) const {
   const double s = look(F, M, before).s;
   const double length = curve_->length();

@@ -31,14 +31,14 @@ class PathRow final : public RowLaw {
 
   int num_states() const override { return 2; }
   bool turns_second() const override { return false; }
-  RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+  RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double t,
                     const double* states) const override;
   double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
-              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M,
+              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M, double t,
               const double* states) const override;
   /// @throws NumericalError if the point has left an open curve
   void follow(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double lambda,
-              const double* before, double* after) const override;
+              double t, const double* before, double* after) const override;
 
  private:
   CurveTouch look(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,

@@ -21,6 +21,7 @@ class RolledWay final : public CoordinateMeasure {
   /// @param is_angle the angle, counted over turns; else the way, radius times the angle
   RolledWay(const RollingRow::Data& data, const Eigen::Matrix3d& R_FM_placed, bool is_angle);
 
+  double turn() const override { return scale_ * kTurn; }
   bool is_angle() const override { return is_angle_; }
   /// @throws NumericalError if the wheel lies flat
   CoordinateLook look(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,

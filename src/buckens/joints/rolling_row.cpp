@@ -64,7 +64,7 @@ RollingRow::View RollingRow::look(const MarkerMotion& F, const MarkerMotion& M) 
   return out;
 }
 
-RowValue RollingRow::evaluate(const MarkerMotion& F, const MarkerMotion& M,
+RowValue RollingRow::evaluate(const MarkerMotion& F, const MarkerMotion& M, double /*t*/,
                               const double* /*states*/) const {
   const View at = look(F, M);
   RowValue out;
@@ -75,7 +75,7 @@ RowValue RollingRow::evaluate(const MarkerMotion& F, const MarkerMotion& M,
 }
 
 double RollingRow::bias(const MarkerMotion& F, const MarkerMotion& M, const MarkerBias& bias_F,
-                        const MarkerBias& bias_M, const double* /*states*/) const {
+                        const MarkerBias& bias_M, double /*t*/, const double* /*states*/) const {
   const View at = look(F, M);
   const auto [n_dot, a_dot, tilt_dot, lean_dot, e_dot] = rates(at, F, M);
   const Vector3d rho_dot = -(data_.radius - data_.edge) * e_dot - data_.edge * n_dot;
@@ -93,7 +93,7 @@ double RollingRow::bias(const MarkerMotion& F, const MarkerMotion& M, const Mark
 }
 
 void RollingRow::follow(const MarkerMotion& F, const MarkerMotion& M, double /*lambda*/,
-                        const double* /*before*/, double* /*after*/) const {
+                        double /*t*/, const double* /*before*/, double* /*after*/) const {
   look(F, M);
 }
 

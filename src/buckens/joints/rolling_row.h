@@ -46,13 +46,13 @@ class RollingRow final : public RowLaw {
   int num_states() const override { return 0; }
   bool holds_rates_only() const override { return direction_ != Direction::normal; }
   /// @throws NumericalError if the wheel lies flat
-  RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+  RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double t,
                     const double* states) const override;
   double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
-              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M,
+              const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M, double t,
               const double* states) const override;
   void follow(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double lambda,
-              const double* before, double* after) const override;
+              double t, const double* before, double* after) const override;
 
  private:
   struct View;

@@ -24,7 +24,7 @@ struct RowValue {
 ///
 /// Its memory is part of the state of the mechanism (model::RowMemory). It is passed as `states`:
 /// num_states() numbers at the start of the step. Null means that they are not yet known and all
-/// zero.
+/// zero. t is the instant of the motions, which may lie within the step [s].
 class RowLaw {
  public:
   virtual ~RowLaw() = default;
@@ -37,20 +37,21 @@ class RowLaw {
   /// Whether it constrains rates only (non-holonomic), so that its residual is always zero.
   virtual bool holds_rates_only() const { return false; }
   virtual RowValue evaluate(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
-                            const double* states) const = 0;
+                            double t, const double* states) const = 0;
   /// Part of g̈ that is independent of the accelerations of the bodies' coordinates.
   virtual double bias(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
                       const spatial::MarkerBias& bias_F, const spatial::MarkerBias& bias_M,
-                      const double* states) const = 0;
+                      double t, const double* states) const = 0;
   /// Updates the memory at the end of a step.
   /// @param before may be null, @param after may be `before`
+  /// @throws StepTooLong if turns cannot be counted
   virtual void follow(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double lambda,
-                      const double* before, double* after) const = 0;
+                      double t, const double* before, double* after) const = 0;
   /// Resets the memory when an event attaches the joint. @param states as before
-  virtual void attach(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M,
+  virtual void attach(const spatial::MarkerMotion& F, const spatial::MarkerMotion& M, double t,
                       double* states) const {
     std::fill_n(states, num_states(), 0.0);
-    follow(F, M, 0.0, nullptr, states);
+    follow(F, M, 0.0, t, nullptr, states);
   }
 };
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -13,6 +12,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/loads/cable_span.h"
 #include "buckens/loads/capstan_slip.h"
+#include "buckens/spatial/counted_value.h"
 
 namespace buckens::loads {
 
@@ -20,17 +20,16 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
 // A wrap below this is that of a cable that just touches its pulley [rad].
 constexpr double kTouchingWrap = 1e-6;
-// Of each pulley: angle from the arriving and the leaving span, wrap, slip and its rate; then ℓ of
-// each span, the instant, and of open cables the angles of both ends, 0 without a drum.
+// Of each pulley: angle from the arriving and the leaving span, wrap, slip and its rate, and the
+// rates of both angles; then ℓ of each span, the instant, and of open cables the angles of both
+// ends and their rates, 0 without a drum.
 constexpr std::size_t kArriving = 0, kLeaving = 1, kWrap = 2, kSlip = 3, kSlipRate = 4,
-                      kOfPulley = 5;
+                      kArrivingRate = 5, kLeavingRate = 6, kOfPulley = 7;
+constexpr int kOfEnds = 4;
 // Instants closer than this share of the time are one, computed in two ways.
 constexpr double kOneInstant = 1e-13;
-
-double within_one_turn(double angle) { return std::remainder(angle, kTurn); }
 
 double turned_about(const Vector3d& axis, const Vector3d& from, const Vector3d& to) {
   return std::atan2(axis.dot(from.cross(to)), from.dot(to));
@@ -43,10 +42,13 @@ struct Cable::Stand {
   Vector3d axis;
   std::array<CableSpan, kMostNodes> spans;
   std::array<double, kMostNodes> arriving{}, leaving{}, wrap{};  // of pulleys [rad]
-  double h = 0;                                                  // of the step so far [s]
-  CapstanSlip::Values slip_rate{};                               // over pulleys [m/s]
-  double first_angle = 0, last_angle = 0;                        // of drums [rad]
+  std::array<double, kMostNodes> arriving_rate{}, leaving_rate{};
+  double h = 0;                                // of the step so far [s]
+  CapstanSlip::Values slip_rate{};             // over pulleys [m/s]
+  double first_angle = 0, last_angle = 0;      // of drums [rad]
+  double first_rate = 0, last_rate = 0;        // of them
   std::array<double, kMostNodes> rate{};       // of the elongation while nothing slips [m/s]
+  std::array<double, kMostNodes> turns{};      // of the span about the axis [rad/s]
   std::array<double, kMostNodes> free{};       // ℓ, after slip [m]
   std::array<double, kMostNodes> free_rate{};  // of ℓ while nothing slips [m/s]
   CapstanSlip slip;
@@ -60,7 +62,8 @@ bool Cable::may_slip() const {
 }
 
 int Cable::num_states() const {
-  return static_cast<int>(kOfPulley * num_pulleys() + num_spans()) + (data_.is_closed ? 1 : 3);
+  return static_cast<int>(kOfPulley * num_pulleys() + num_spans()) +
+         (data_.is_closed ? 1 : 1 + kOfEnds);
 }
 
 namespace {
@@ -72,6 +75,11 @@ const spatial::MarkerMotion& motion_of(const Sight& sight, std::size_t node) {
 /// Twist of a marker, as rows are multiplied with.
 double rate_by(const TwistRow& row, const spatial::MarkerMotion& motion) {
   return row.head<3>().dot(motion.w) + row.tail<3>().dot(motion.v);
+}
+
+/// How fast a pulley turns against a span.
+double turning_of(const spatial::MarkerMotion& pulley, const Vector3d& axis, double span_turns) {
+  return axis.dot(pulley.w) - span_turns;
 }
 
 /// Angle of a pulley's mark from where a span touches it.
@@ -90,11 +98,14 @@ void Cable::wind_ends(const Sight& sight, const double* states, Stand& s) const 
   const CableNode &first_drum = data_.nodes[0], &last_drum = data_.nodes[last];
   if (first_drum.radius != 0.0) {
     s.first_angle = mark_angle(first_drum, motion_of(sight, 0), s.spans[0], s.axis);
-    s.free[0] += first_drum.radius * within_one_turn(s.first_angle - angles[0]);
+    s.first_rate = turning_of(motion_of(sight, 0), s.axis, s.turns[0]);
+    s.free[0] += first_drum.radius * spatial::way_turned(angles[0], s.first_angle, s.h * angles[2]);
   }
   if (last_drum.radius != 0.0) {
     s.last_angle = mark_angle(last_drum, motion_of(sight, last), s.spans[last - 1], s.axis);
-    s.free[last - 1] -= last_drum.radius * within_one_turn(s.last_angle - angles[1]);
+    s.last_rate = turning_of(motion_of(sight, last), s.axis, s.turns[last - 1]);
+    s.free[last - 1] -=
+        last_drum.radius * spatial::way_turned(angles[1], s.last_angle, s.h * angles[3]);
   }
 }
 
@@ -115,6 +126,7 @@ void Cable::find_spans(const Sight& sight, const double* states, Stand& s) const
     }
     s.rate[j] = rate_by(s.spans[j].on_from, from) + rate_by(s.spans[j].on_to, to);
     s.free[j] = states[kOfPulley * num_pulleys() + j];
+    s.turns[j] = s.spans[j].turn_rate(from, to);
     s.free_rate[j] = s.spans[j].length_rate(from, to) - s.rate[j];
   }
 }
@@ -128,11 +140,15 @@ void Cable::wind_pulleys(const Sight& sight, const double* states, Stand& s) con
     const auto& motion = motion_of(sight, k);
     s.arriving[i] = mark_angle(node, motion, s.spans[before], s.axis);
     s.leaving[i] = mark_angle(node, motion, s.spans[k], s.axis);
-    s.free[before] -= node.radius * within_one_turn(s.arriving[i] - own[kArriving]);
-    s.free[k] += node.radius * within_one_turn(s.leaving[i] - own[kLeaving]);
+    s.arriving_rate[i] = turning_of(motion, s.axis, s.turns[before]);
+    s.leaving_rate[i] = turning_of(motion, s.axis, s.turns[k]);
+    s.free[before] -=
+        node.radius * spatial::way_turned(own[kArriving], s.arriving[i], s.h * own[kArrivingRate]);
+    s.free[k] +=
+        node.radius * spatial::way_turned(own[kLeaving], s.leaving[i], s.h * own[kLeavingRate]);
     const double sense = node.radius > 0.0 ? 1.0 : -1.0;
     const double seen = sense * turned_about(s.axis, s.spans[before].along, s.spans[k].along);
-    s.wrap[i] = own[kWrap] + within_one_turn(seen - own[kWrap]);
+    s.wrap[i] = own[kWrap] + spatial::way_turned(own[kWrap], seen, 0.0);
     if (s.wrap[i] < -kTouchingWrap) {
       throw NumericalError(fmt::format(
           "it has left its pulley {}, around which it would run the other way; look at the "
@@ -165,12 +181,12 @@ Cable::Stand Cable::look(const Sight& sight) const {
   }
   Stand s;
   const double* states = sight.states != nullptr ? sight.states : data_.placed.data();
-  find_spans(sight, states, s);
-  wind_pulleys(sight, states, s);
-  wind_ends(sight, states, s);
   const double started = states[kOfPulley * num_pulleys() + num_spans()];
   const bool has_begun = sight.states != nullptr && sight.t - started > kOneInstant * sight.t;
   s.h = has_begun ? sight.t - started : 0.0;
+  find_spans(sight, states, s);
+  wind_pulleys(sight, states, s);
+  wind_ends(sight, states, s);
   set_tensions(states, s);
   if (!may_slip()) return s;
   for (std::size_t i = 0; i < num_pulleys(); ++i) {
@@ -285,12 +301,24 @@ void Cable::start_states(const Sight& sight, double* states) const {
   find_states(placed, states);
 }
 
+void Cable::require_followed(std::size_t pulley, const double* before, const Stand& s) {
+  for (const auto& [old, now] : {std::pair(before[kArrivingRate], s.arriving_rate[pulley]),
+                                 std::pair(before[kLeavingRate], s.leaving_rate[pulley])}) {
+    spatial::require_countable({0, 0, old, 0}, {0, 0, now, s.h}, spatial::kTurn,
+                               fmt::format("the speed of its pulley {}", pulley + 1));
+  }
+}
+
 void Cable::find_states(const Sight& sight, double* states) const {
   const Stand s = look(sight);
   const double* before = sight.states != nullptr ? sight.states : data_.placed.data();
+  const bool is_step = before != data_.placed.data() && s.h > 0.0;
   for (std::size_t i = 0; i < num_pulleys(); ++i) {
     const double slip = before[kOfPulley * i + kSlip] + s.slip.slipped(i);
     double* own = states + kOfPulley * i;
+    if (is_step) require_followed(i, before + kOfPulley * i, s);
+    own[kArrivingRate] = s.arriving_rate[i];
+    own[kLeavingRate] = s.leaving_rate[i];
     own[kArriving] = s.arriving[i];
     own[kLeaving] = s.leaving[i];
     own[kWrap] = s.wrap[i];
@@ -303,8 +331,17 @@ void Cable::find_states(const Sight& sight, double* states) const {
   states[kOfPulley * num_pulleys() + num_spans()] = sight.t;
   if (data_.is_closed) return;
   double* const angles = states + kOfPulley * num_pulleys() + num_spans() + 1;
+  if (is_step) {
+    const double* const old = before + kOfPulley * num_pulleys() + num_spans() + 1;
+    spatial::require_countable({0, 0, old[2], 0}, {0, 0, s.first_rate, s.h}, spatial::kTurn,
+                               "the speed of its first drum");
+    spatial::require_countable({0, 0, old[3], 0}, {0, 0, s.last_rate, s.h}, spatial::kTurn,
+                               "the speed of its last drum");
+  }
   angles[0] = s.first_angle;
   angles[1] = s.last_angle;
+  angles[2] = s.first_rate;
+  angles[3] = s.last_rate;
 }
 
 CableReading Cable::read(const Sight& sight) const {
@@ -349,8 +386,8 @@ std::vector<double> Cable::placed_states(const CableData& data,
     out[kOfPulley * i + kLeaving] = mark_angle(node, markers[k], spans[k], axis);
     const double sense = node.radius > 0.0 ? 1.0 : -1.0;
     double wrap = sense * turned_about(axis, spans[before].along, spans[k].along);
-    if (wrap < -kTouchingWrap) wrap += kTurn;
-    out[kOfPulley * i + kWrap] = wrap + kTurn * turns[i];
+    if (wrap < -kTouchingWrap) wrap += spatial::kTurn;
+    out[kOfPulley * i + kWrap] = wrap + spatial::kTurn * turns[i];
   }
   if (data.is_closed) return out;
   const std::size_t last = nodes - 1, at = kOfPulley * pulleys + spans.size() + 1;

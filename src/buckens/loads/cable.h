@@ -40,8 +40,8 @@ struct CableReading {
 /// in it. Pulleys take in and give out ℓ as they turn and as the spans turn about them; the tension
 /// is E A (L − ℓ)/ℓ. Where the tensions on both sides of a pulley differ by more than the factor
 /// exp(μ φ), φ being the wrap, ℓ slips over it. States: of each pulley its angle from both spans,
-/// its wrap, the slip so far and its rate; ℓ of each span; the instant; the angles of both ends.
-/// Theory: docs/theory/22-rows.md §7 (R31).
+/// its wrap, the slip so far and its rate, and the rates of both angles; ℓ of each span; the
+/// instant; the angles of both ends and their rates. Theory: docs/theory/22-rows.md §7 (R31).
 class Cable final : public ForceElement {
  public:
   static constexpr std::size_t kMostNodes = 16;
@@ -92,6 +92,8 @@ class Cable final : public ForceElement {
   /// Of all spans, before anything slips within the step.
   void set_tensions(const double* states, Stand& s) const;
   Stand look(const Sight& sight) const;
+  /// @param before states of the pulley @throws StepTooLong if its turns cannot be counted
+  static void require_followed(std::size_t pulley, const double* before, const Stand& s);
   bool may_slip() const;
 
   CableData data_;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/spatial/counted_value.h"
 
 namespace buckens::loads {
 
@@ -19,9 +20,7 @@ namespace {
 // A strain that yielded in the step before stands at its bound but for rounding.
 constexpr double kAtBound = 1.0 - 1e-9;
 constexpr int kFirstAngle = 0, kSecondAngle = 1, kWound = 2, kSlip = 3;
-
-/// The angle from −π to π that differs from this one by whole turns.
-double within_turn(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
+constexpr int kFirstRate = 4, kSecondRate = 5, kInstant = 6;
 
 double angle_about(const Vector3d& axis, const Vector3d& from, const Vector3d& to) {
   return std::atan2(axis.dot(from.cross(to)), from.dot(to));
@@ -33,6 +32,7 @@ struct ElasticBelt::Stand {
   spatial::PairRow apart, winding;  // rates of the spans' common and opposite elongation
   double apart_rate = 0, winding_rate = 0;
   double first_angle = 0, second_angle = 0;
+  double first_rate = 0, second_rate = 0;  // of them
   double stretch = 0;          // T₀ + k (L − L₀), the mean tension without slack [N]
   double wound = 0;            // x, after it has yielded [m]
   double slipped = 0;          // within the step [m]
@@ -116,12 +116,18 @@ ElasticBelt::Stand ElasticBelt::look(const Sight& sight) const {
   out.winding_rate = out.winding.dot(V);
   out.first_angle = angle_about(axis, e, sight.first.R * data_.x_F);
   out.second_angle = angle_about(axis, e, sight.second.R * data_.x_M);
+  const double turn = n.dot(sight.second.v - sight.first.v) / D;  // of the line of centres
+  out.first_rate = axis.dot(sight.first.w) - turn;
+  out.second_rate = axis.dot(sight.second.w) - turn;
   out.stretch = data_.pretension + data_.stiffness * (way(D, r1, r2) - data_.way);
   // At rest it is as far as its pulleys have turned since it was placed.
-  const std::array<double, 3> placed = {data_.placed_angle, data_.placed_angle, 0.0};
+  const std::array<double, kStates> placed = {data_.placed_angle, data_.placed_angle};
   const double* const before = sight.states != nullptr ? sight.states : placed.data();
-  out.wound = before[kWound] + r1 * within_turn(out.first_angle - before[kFirstAngle]) -
-              r2 * within_turn(out.second_angle - before[kSecondAngle]);
+  const double since = sight.states != nullptr ? sight.t - before[kInstant] : 0.0;
+  out.wound =
+      before[kWound] +
+      r1 * spatial::way_turned(before[kFirstAngle], out.first_angle, since * before[kFirstRate]) -
+      r2 * spatial::way_turned(before[kSecondAngle], out.second_angle, since * before[kSecondRate]);
   if (data_.coefficient) {
     // An open belt wraps π + 2γ and π − 2γ, a crossed one π + 2γ twice.
     const double gamma = std::asin(sine);
@@ -191,6 +197,18 @@ void ElasticBelt::find_states(const Sight& sight, double* states) const {
   const Stand s = look(sight);
   states[kFirstAngle] = s.first_angle;
   states[kSecondAngle] = s.second_angle;
+  if (sight.states != nullptr) {
+    const double then = sight.states[kInstant];
+    spatial::require_countable({0, 0, sight.states[kFirstRate], then},
+                               {0, 0, s.first_rate, sight.t}, spatial::kTurn,
+                               "the speed of its first pulley");
+    spatial::require_countable({0, 0, sight.states[kSecondRate], then},
+                               {0, 0, s.second_rate, sight.t}, spatial::kTurn,
+                               "the speed of its second pulley");
+  }
+  states[kFirstRate] = s.first_rate;
+  states[kSecondRate] = s.second_rate;
+  states[kInstant] = sight.t;
   states[kWound] = s.wound;
   states[kSlip] = s.slipped + (sight.states != nullptr ? sight.states[kSlip] : 0.0);
 }

@@ -35,7 +35,8 @@ struct BeltReading {
 /// one span to the other, the tensions are T₀ + k (δ ± x) and at least zero. Their difference is
 /// friction between belt and rims: it is at most the share (m − 1)/(m + 1) of their sum,
 /// m = exp(μ φ) with the smaller wrap φ, and x yields there as in JointFriction. States: the angles
-/// of both pulleys from the line of centres, x, and the slip so far.
+/// of both pulleys from the line of centres, x, the slip so far, and the rates of both angles with
+/// the instant to which they belong.
 /// Theory: docs/theory/22-rows.md §6.
 class ElasticBelt final : public ForceElement {
  public:
@@ -47,7 +48,7 @@ class ElasticBelt final : public ForceElement {
   Action respond(const Sight& sight) const override;
   int num_soft_rows() const override { return 2; }
   void append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const override;
-  int num_states() const override { return 4; }
+  int num_states() const override { return kStates; }
   void start_states(const Sight& sight, double* states) const override;
   void find_states(const Sight& sight, double* states) const override;
 
@@ -64,6 +65,7 @@ class ElasticBelt final : public ForceElement {
  private:
   /// Geometry and forces at one instant.
   struct Stand;
+  static constexpr int kStates = 7;
   Stand look(const Sight& sight) const;
 
   ElasticBeltData data_;

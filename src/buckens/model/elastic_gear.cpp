@@ -12,6 +12,9 @@ using loads::SoftRow;
 
 namespace {
 constexpr std::array<double, 2> kSides = {1.0, -1.0};  // of the gap
+using MeshStates = std::array<double, joints::GearMesh::kStates>;
+// Last, where the joint has the flank that carries.
+constexpr int kFlank = joints::GearMesh::kFlank, kMiddle = kFlank;
 }  // namespace
 
 std::array<ElasticGear::Flank, 2> ElasticGear::look(const Sight& sight) const {
@@ -20,16 +23,17 @@ std::array<ElasticGear::Flank, 2> ElasticGear::look(const Sight& sight) const {
   std::array<Flank, 2> out;
   for (std::size_t k = 0; k < kSides.size(); ++k) {
     // A joint's multiplier pushes against its gap: the flank has the opposite sign.
-    std::array<double, 5> states{0, 0, 0, 0, -kSides[k]};
+    MeshStates states{};
     if (sight.states != nullptr) {
-      std::copy_n(sight.states, 4, states.begin());
+      std::copy_n(sight.states, kFlank, states.begin());
+      states[kFlank] = -kSides[k];
     } else {
-      mesh_.follow(sight.first, sight.second, -kSides[k], nullptr, states.data());
+      mesh_.follow(sight.first, sight.second, -kSides[k], sight.t, nullptr, states.data());
     }
-    const joints::RowValue row = mesh_.evaluate(sight.first, sight.second, states.data());
+    const joints::RowValue row = mesh_.evaluate(sight.first, sight.second, sight.t, states.data());
     Flank& flank = out[k];
     flank.J = kSides[k] * row.J;
-    const double middle = sight.states != nullptr ? sight.states[4] : meshed_at(row.g);
+    const double middle = sight.states != nullptr ? sight.states[kMiddle] : meshed_at(row.g);
     flank.depth = kSides[k] * (row.g - middle) - 0.5 * data_.play;
     flank.rate = flank.J.dot(V);
     if (!flank.touches()) continue;
@@ -101,23 +105,23 @@ void ElasticGear::start_states(const Sight& sight, double* states) const {
   Sight fresh = sight;
   fresh.states = nullptr;
   find_states(fresh, states);
-  states[4] = meshed_at(mesh_.evaluate(sight.first, sight.second, states).g);
+  states[kMiddle] = meshed_at(mesh_.evaluate(sight.first, sight.second, sight.t, states).g);
 }
 
 void ElasticGear::restart_states(const Sight& sight, double* states) const {
   start_states(sight, states);
-  states[4] = 0.0;
-  states[4] = mesh_.evaluate(sight.first, sight.second, states).g;
+  states[kMiddle] = 0.0;
+  states[kMiddle] = mesh_.evaluate(sight.first, sight.second, sight.t, states).g;
 }
 
 void ElasticGear::find_states(const Sight& sight, double* states) const {
-  std::array<double, 5> before{}, after{};
-  if (sight.states != nullptr) std::copy_n(sight.states, 4, before.begin());
-  mesh_.follow(sight.first, sight.second, 0.0, sight.states != nullptr ? before.data() : nullptr,
-               after.data());
-  const double middle = sight.states != nullptr ? sight.states[4] : 0.0;
-  std::copy_n(after.begin(), 4, states);
-  states[4] = middle;
+  MeshStates before{}, after{};
+  if (sight.states != nullptr) std::copy_n(sight.states, kFlank, before.begin());
+  mesh_.follow(sight.first, sight.second, 0.0, sight.t,
+               sight.states != nullptr ? before.data() : nullptr, after.data());
+  const double middle = sight.states != nullptr ? sight.states[kMiddle] : 0.0;
+  std::copy_n(after.begin(), kFlank, states);
+  states[kMiddle] = middle;
 }
 
 }  // namespace buckens::model

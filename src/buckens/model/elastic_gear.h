@@ -13,7 +13,8 @@ namespace buckens::model {
 /// The gap of a flank is measured by the row of a gear joint, eq. (R8), as if this flank carried:
 /// x = ±g − j/2 along the line of action, j being the play there. Where x > 0 the flank pushes with
 /// k x + c ẋ, never pulls, and its damper gives at most the force of its spring. Both flanks can
-/// carry where centres come too near. States: the angles of both gears, as of the joint, and g
+/// carry where centres come too near. States: those of the joint's
+/// angles, and g
 /// where the teeth are in the middle of their play: a whole number of pitches, or where they were
 /// when they were switched on. Theory: docs/theory/22-rows.md §7.
 class ElasticGear final : public loads::ForceElement {
@@ -34,7 +35,7 @@ class ElasticGear final : public loads::ForceElement {
   loads::Action respond(const loads::Sight& sight) const override;
   int num_soft_rows() const override { return 2; }
   void append_tangent(const loads::Sight& sight, std::vector<loads::SoftRow>& rows) const override;
-  int num_states() const override { return 5; }
+  int num_states() const override { return joints::GearMesh::kStates; }
   void start_states(const loads::Sight& sight, double* states) const override;
   /// Teeth meet in the middle of their play, wherever gears have turned to.
   void restart_states(const loads::Sight& sight, double* states) const override;

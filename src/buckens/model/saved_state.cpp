@@ -138,6 +138,8 @@ void visit_memory(const base::SaveVisit& visit, const Model& model, RowMemory& m
     const base::SaveVisit one = visit.inside("coordinates").inside(k);
     one.count("turns", memory.coordinates[k].turns, -kMostTurns, kMostTurns);
     one.number("fraction", memory.coordinates[k].fraction);
+    one.number("rate", memory.coordinates[k].rate);
+    one.number("t", memory.coordinates[k].t);
   }
   visit.vector("laws", memory.laws, model.num_law_states());
   visit.vector("rows", memory.rows, model.num_row_states());

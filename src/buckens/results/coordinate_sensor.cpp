@@ -18,8 +18,8 @@ class CoordinateSensor final : public Sensor {
 
   std::vector<Channel> channels() const override { return channels_; }
   void append(const Observation& now, std::vector<double>& values) override {
-    const loads::CoordinateMotion motion =
-        dynamics::coordinate_motion(now.model, coordinate_, &now.state.memory, now.motions);
+    const loads::CoordinateMotion motion = dynamics::coordinate_motion(
+        now.model, coordinate_, now.state.t, &now.state.memory, now.motions);
     values.insert(values.end(), {motion.value, motion.rate});
   }
 

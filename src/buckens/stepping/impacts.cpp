@@ -75,20 +75,20 @@ Matrix Impacts::impulse_compliance(const Scheme& scheme, const BodyAnswer* answe
 namespace {
 
 loads::CoordinateMotion motion_of(const model::Model& model, const model::Load& load,
-                                  const std::vector<dynamics::BodyMotion>& motions,
+                                  const std::vector<dynamics::BodyMotion>& motions, double t,
                                   const model::RowMemory& memory) {
   const auto first = dynamics::evaluate_marker(model, load.first, motions);
   const auto second = dynamics::evaluate_marker(model, load.second, motions);
-  return dynamics::coordinate_motion(model, static_cast<std::size_t>(load.coordinate), &memory,
+  return dynamics::coordinate_motion(model, static_cast<std::size_t>(load.coordinate), t, &memory,
                                      first.motion, second.motion);
 }
 
 }  // namespace
 
-void Impacts::start(const std::vector<dynamics::BodyMotion>& motions,
+void Impacts::start(const std::vector<dynamics::BodyMotion>& motions, double t,
                     const model::RowMemory& memory) {
   for (Law& law : laws_) {
-    law.start = motion_of(model_, model_.loads[law.load], motions, memory);
+    law.start = motion_of(model_, model_.loads[law.load], motions, t, memory);
     law.bounces = true;
   }
   if (can_happen()) start_ = motions;

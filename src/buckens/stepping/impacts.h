@@ -48,7 +48,8 @@ class Impacts {
   /// False for models without anything that strikes.
   bool can_happen() const { return !laws_.empty(); }
   /// Notes where the coordinates are at the start of a step.
-  void start(const std::vector<dynamics::BodyMotion>& motions, const model::RowMemory& memory);
+  void start(const std::vector<dynamics::BodyMotion>& motions, double t,
+             const model::RowMemory& memory);
 
   /// Looks for impacts in the step that ended with `motions`, and finds what they do.
   /// @param bodies of the step, @param rows_in_use independent joint rows

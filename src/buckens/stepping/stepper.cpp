@@ -345,10 +345,14 @@ void Stepper::compute_round(const model::State& state, int round, StepReport& re
 }
 
 StepReport Stepper::step(const model::State& before, model::State& after) {
-  if (!must_rescale(before, scheme_)) return take_step(before, after);
-  model::State rescaled = before;
-  rescale_algorithmic(rescaled, scheme_);
-  return take_step(rescaled, after);
+  try {
+    if (!must_rescale(before, scheme_)) return take_step(before, after);
+    model::State rescaled = before;
+    rescale_algorithmic(rescaled, scheme_);
+    return take_step(rescaled, after);
+  } catch (const StepTooLong& error) {
+    throw StepFailure(fmt::format("step at t = {:.6g} s failed: {}", before.t, error.text()));
+  }
 }
 
 StepReport Stepper::take_step(const model::State& state, model::State& end) {
@@ -384,7 +388,7 @@ StepReport Stepper::take_general_step(const model::State& state) {
   if (impacts_->can_happen()) {
     at_start_.resize(bodies_.size());
     for (std::size_t b = 0; b < bodies_.size(); ++b) bodies_[b].motion_at_start(at_start_[b]);
-    impacts_->start(at_start_, state.memory);
+    impacts_->start(at_start_, state.t, state.memory);
   }
   CouplingRounds rounds(settings_);
   for (int round = 0;; ++round) {

@@ -90,7 +90,7 @@ class FrictionStart {
     }
     const model::Load& load = model_.loads[law.load];
     const auto motions = dynamics::motions_of(model_, moved);
-    return dynamics::coordinate_motion(model_, static_cast<std::size_t>(load.coordinate),
+    return dynamics::coordinate_motion(model_, static_cast<std::size_t>(load.coordinate), state_.t,
                                        &state_.memory, motions)
         .rate;
   }

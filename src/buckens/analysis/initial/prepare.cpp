@@ -62,7 +62,7 @@ void settle_rows(const model::Model& model, const dynamics::MassMetric& metric,
   constexpr int kMostRounds = 4;  // signs of redundant rows may hang on each other
   for (int round = 0; round < kMostRounds; ++round) {
     const auto motions = dynamics::motions_of(model, state);
-    if (!dynamics::follow_reactions(model, motions, state.lambda, state.memory)) return;
+    if (!dynamics::follow_reactions(model, motions, state.t, state.lambda, state.memory)) return;
     settle_rigid_rows(model, metric, rows_in_use, state);
   }
 }
@@ -118,7 +118,7 @@ void close_rows(const model::Model& model, const RestStands& at_rest,
     if (load.rigid_row < 0 || (!memory.off.empty() && memory.off[k])) continue;
     const auto coordinate = static_cast<std::size_t>(load.coordinate);
     const double size = model.coordinates[coordinate].law.is_angle() ? 1.0 : model.length;
-    const auto motion = dynamics::coordinate_motion(model, coordinate, &memory, motions);
+    const auto motion = dynamics::coordinate_motion(model, coordinate, 0.0, &memory, motions);
     if (std::abs(motion.rate) > kStandsStill * size) continue;
     const bool presses = !at_rest.empty() && at_rest[k].regime != 0;
     const int regime = presses ? at_rest[k].regime : touched_end(load, motion.value, size);

@@ -22,7 +22,7 @@ void refuse_beyond_stops(const model::Model& model, const model::State& state) {
     if (load.rigid_row < 0) continue;
     const auto coordinate = static_cast<std::size_t>(load.coordinate);
     const double value =
-        dynamics::coordinate_motion(model, coordinate, nullptr,
+        dynamics::coordinate_motion(model, coordinate, state.t, nullptr,
                                     dynamics::evaluate_marker(model, load.first, motions).motion,
                                     dynamics::evaluate_marker(model, load.second, motions).motion)
             .value;

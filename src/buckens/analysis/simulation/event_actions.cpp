@@ -33,11 +33,11 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 /// How much the residual of a row depends on which way its multiplier pushes: of gears and racks
 /// that stand nearer or farther than they were placed, half the play between their teeth.
 double play_of(const joints::RowLaw& law, const spatial::MarkerMotion& F,
-               const spatial::MarkerMotion& M, const double* states) {
+               const spatial::MarkerMotion& M, double t, const double* states) {
   std::vector<double> pushed(static_cast<std::size_t>(law.num_states()));
   const auto residual = [&](double multiplier) {
-    law.follow(F, M, multiplier, states, pushed.data());
-    return law.evaluate(F, M, pushed.data()).g;
+    law.follow(F, M, multiplier, t, states, pushed.data());
+    return law.evaluate(F, M, t, pushed.data()).g;
   };
   return 0.5 * std::abs(residual(1.0) - residual(-1.0));
 }
@@ -171,7 +171,7 @@ bool EventActions::hold_joint(const std::string& name, bool is_held, model::Stat
     states[0] = is_held ? kLocked : kFree;
     if (!is_held || !was_held) states[1] = 0.0;
     if (!is_held || was_held) continue;
-    states[2] = dynamics::coordinate_motion(model, index, &state.memory, motions).value;
+    states[2] = dynamics::coordinate_motion(model, index, state.t, &state.memory, motions).value;
     is_new = true;
   }
   return is_new;
@@ -226,8 +226,8 @@ void EventActions::look_anew(const model::Joint& joint, const model::EventSpec& 
       const auto F = dynamics::evaluate_marker(model, joint.first, motions).motion;
       const auto M = dynamics::evaluate_marker(model, joint.second, motions).motion;
       double* const states = state.memory.rows.data() + place;
-      row.law()->attach(F, M, states);
-      require_meshing(joint, play_of(*row.law(), F, M, states), event, state.t);
+      row.law()->attach(F, M, state.t, states);
+      require_meshing(joint, play_of(*row.law(), F, M, state.t, states), event, state.t);
     }
     place += row.num_states();
   }

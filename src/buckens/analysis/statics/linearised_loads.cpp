@@ -145,7 +145,7 @@ Vector LinearisedLoads::loads_after(const std::vector<BodyMotion>& motions, cons
   }
   dynamics::Forces forces;
   dynamics::Constraints constraints;
-  const model::RowMemory memory = dynamics::memory_at_rest(model_, moved, acting.lambda);
+  const model::RowMemory memory = dynamics::memory_at_rest(model_, moved, acting.t, acting.lambda);
   dynamics::evaluate_constraints(model_, moved, acting.t, &memory, constraints);
   dynamics::evaluate_forces(model_, moved, acting.t, forces, acting.load_factor);
   dynamics::add_joint_forces(constraints, acting.lambda, forces);

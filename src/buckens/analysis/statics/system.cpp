@@ -127,7 +127,7 @@ std::vector<dynamics::BodyMotion> motions_towards(const model::Model& model,
 StaticBalance StaticSystem::balance(const StaticPoint& point) const {
   const std::vector<dynamics::BodyMotion> motions = motions_at(model_, point);
   StaticBalance out;
-  const model::RowMemory memory = dynamics::memory_at_rest(model_, motions, point.lambda);
+  const model::RowMemory memory = dynamics::memory_at_rest(model_, motions, t_, point.lambda);
   dynamics::evaluate_constraints(model_, motions, t_, &memory, out.constraints);
   dynamics::evaluate_forces(model_, motions, t_, out.forces, point.load_factor);
   dynamics::add_joint_forces(out.constraints, point.lambda, out.forces);

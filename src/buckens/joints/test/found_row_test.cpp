@@ -40,8 +40,8 @@ TEST(FoundRow, IsTheRowItselfAsPlaced) {
     EXPECT_EQ(row.num_states(), own.num_states() + 1);
     EXPECT_EQ(row.is_length(), own.is_length());
     EXPECT_EQ(row.turns_second(), own.turns_second());
-    EXPECT_EQ(row.evaluate(F, M, nullptr).g, own.evaluate(F, M, 0).g);
-    EXPECT_EQ(row.evaluate(F, M, nullptr).J, own.evaluate(F, M, 0).J);
+    EXPECT_EQ(row.evaluate(F, M, 0, nullptr).g, own.evaluate(F, M, 0).g);
+    EXPECT_EQ(row.evaluate(F, M, 0, nullptr).J, own.evaluate(F, M, 0).J);
   }
 }
 
@@ -52,17 +52,17 @@ TEST(FoundRow, IsClosedWhereItWasAttachedAndMovesAsBefore) {
   V << F.w, F.v, M.w, M.v;
   A << F.alpha, F.a, M.alpha, M.a;
   const FoundRow row(some_belt());
-  std::array<double, 6> states{}, after{};
-  row.attach(F.at(0), M.at(0), states.data());
+  std::array<double, 1 + GearMesh::kStates> states{}, after{};
+  row.attach(F.at(0), M.at(0), 0, states.data());
   EXPECT_GT(std::abs(states[0]), 1e-3);
-  EXPECT_NEAR(row.evaluate(F.at(0), M.at(0), states.data()).g, 0, 1e-15);
-  row.follow(F.at(0), M.at(0), 1.0, states.data(), after.data());
+  EXPECT_NEAR(row.evaluate(F.at(0), M.at(0), 0, states.data()).g, 0, 1e-15);
+  row.follow(F.at(0), M.at(0), 1.0, 0, states.data(), after.data());
   EXPECT_EQ(after[0], states[0]);
-  const auto g = [&](double t) { return row.evaluate(F.at(t), M.at(t), states.data()).g; };
-  const RowValue value = row.evaluate(F.at(0), M.at(0), states.data());
+  const auto g = [&](double t) { return row.evaluate(F.at(t), M.at(t), 0, states.data()).g; };
+  const RowValue value = row.evaluate(F.at(0), M.at(0), 0, states.data());
   // Fourth-order differences over 1e-3 of quantities of one.
   EXPECT_NEAR(value.J.dot(V), test::derivative(g), 1e-8);
-  EXPECT_NEAR(value.J.dot(A) + row.bias(F.at(0), M.at(0), {}, {}, states.data()),
+  EXPECT_NEAR(value.J.dot(A) + row.bias(F.at(0), M.at(0), {}, {}, 0, states.data()),
               test::second_derivative(g), 1e-5);
 }
 
@@ -75,10 +75,10 @@ TEST(FoundRow, ANutStaysClosedAcrossTheEndOfItsPitch) {
   F.p.setZero();
   M.p = {0, 0, 0.1 + 0.49 * kPitch};
   std::array<double, 1> states{};
-  row.attach(F, M, states.data());
+  row.attach(F, M, 0, states.data());
   for (const double moved : {0.0, 0.02, 0.3, -0.3}) {
     M.p.z() = 0.1 + (0.49 + moved) * kPitch;
-    EXPECT_NEAR(row.evaluate(F, M, states.data()).g, moved * kPitch, 1e-15);
+    EXPECT_NEAR(row.evaluate(F, M, 0, states.data()).g, moved * kPitch, 1e-15);
   }
 }
 

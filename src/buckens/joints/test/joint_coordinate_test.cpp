@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/joints/joint_coordinate.h"
 
+#include <cmath>
 #include <memory>
 
 #include <gtest/gtest.h>
 
+#include "buckens/base/errors.h"
 #include "buckens/joints/swing_twist.h"
 #include "buckens/spatial/rotation.h"
 
@@ -38,6 +40,35 @@ TEST(JointCoordinate, OneLookIsAllOfIt) {
     EXPECT_EQ(look.J, coordinate.derivatives(F, M)) << kind;
     EXPECT_NEAR(look.rate, look.J.dot(V), 1e-14) << kind;  // rounding
     EXPECT_GT(std::abs(look.rate), 0.1) << kind;
+  }
+}
+
+TEST(JointCoordinate, CountsSeveralTurnsInAStep) {
+  const auto angle = JointCoordinate::angle(Vector3d::UnitZ(), Matrix3d::Identity());
+  const auto slide = JointCoordinate::displacement(Vector3d::UnitZ(), Vector3d::Zero());
+  for (const double rate : {20.0, -20.0, 3.0, 0.0}) {
+    CountedValue now{0, 0, rate, 0};
+    CountedValue there{0, 0, rate, 0};
+    for (int k = 1; k <= 50; ++k) {
+      const double fraction = std::remainder(rate * k, kTurn);
+      now = angle.follow(angle.expect(now, k), fraction);
+      EXPECT_NEAR(now.value(), rate * k, 1e-12);  // rounding of some 1000 rad
+      there = slide.follow(slide.expect(there, k), fraction);
+      EXPECT_EQ(there.value(), fraction);  // displacements have no turns
+    }
+  }
+}
+
+TEST(JointCoordinate, SaysWhereTurnsCannotBeCounted) {
+  EXPECT_TRUE(spatial::is_countable({0, 0, 2.0, 1.0}, {0, 0, 5.1, 2.0}, kTurn));
+  EXPECT_FALSE(spatial::is_countable({0, 0, 2.0, 1.0}, {0, 0, -1.2, 2.0}, kTurn));
+  try {
+    spatial::require_countable({0, 0, 2.0, 1.0}, {0, 0, 500.0, 1.1}, kTurn, "joint \"pin\"");
+    FAIL();
+  } catch (const StepTooLong& error) {
+    EXPECT_STREQ(error.what(),
+                 "joint \"pin\" goes from 2 to 500 rad/s within one step of 0.1 s, so that one "
+                 "turn more or less could be meant; use a smaller step");
   }
 }
 

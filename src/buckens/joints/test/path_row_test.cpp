@@ -92,14 +92,14 @@ TEST(PathRow, RatesAndAccelerationsAreThoseOfTheResidual) {
   // Off a plane curve everything is exact, whatever the gap is.
   const auto plane = make_path_rows(curve, Vector3d::UnitZ());
   ASSERT_EQ(plane.size(), 1U);
-  const auto g = [&](double t) { return plane[0]->evaluate(F.at(t), M.at(t), nullptr).g; };
+  const auto g = [&](double t) { return plane[0]->evaluate(F.at(t), M.at(t), 0, nullptr).g; };
   Eigen::Matrix<double, 12, 1> V, A;
   V << F.w, F.v, M.w, M.v;
   A << F.alpha, F.a, M.alpha, M.a;
-  const RowValue value = plane[0]->evaluate(F.at(0), M.at(0), nullptr);
+  const RowValue value = plane[0]->evaluate(F.at(0), M.at(0), 0, nullptr);
   // Third derivatives of a spline jump: h² of that at worst.
   EXPECT_NEAR(value.J.dot(V), test::derivative(g, 1e-4), 1e-9);
-  const double bias = plane[0]->bias(F.at(0), M.at(0), {}, {}, nullptr);
+  const double bias = plane[0]->bias(F.at(0), M.at(0), {}, {}, 0, nullptr);
   // Fourth derivatives of a spline jump: differences know the second one to h² of that.
   EXPECT_NEAR(value.J.dot(A) + bias, test::second_derivative(g), 1e-4 * std::abs(bias));
   EXPECT_FALSE(plane[0]->turns_second());
@@ -121,13 +121,13 @@ TEST(PathRow, HoldsABeadOnAWireInSpace) {
   M.v = 2.0 * t;
   Vector3d J[2];
   for (int k = 0; k < 2; ++k) {
-    const RowValue value = rows[static_cast<std::size_t>(k)]->evaluate(F, M, nullptr);
+    const RowValue value = rows[static_cast<std::size_t>(k)]->evaluate(F, M, 0, nullptr);
     EXPECT_NEAR(value.g, 0, 1e-6);  // of the spline, h⁴/384
     J[k] = value.J.segment<3>(9).transpose();
     EXPECT_NEAR(J[k].dot(t), 0, 1e-5);
     EXPECT_NEAR(J[k].norm(), 1, 1e-14);
     // Centripetal acceleration v² κ with κ = r/(r² + b²), towards the axis.
-    const double bias = rows[static_cast<std::size_t>(k)]->bias(F, M, {}, {}, nullptr);
+    const double bias = rows[static_cast<std::size_t>(k)]->bias(F, M, {}, {}, 0, nullptr);
     const Vector3d centripetal = -4.0 * 0.8 / (0.64 + 0.09) * e;
     // Second derivatives of a spline are known to h²/12.
     EXPECT_NEAR(bias, -J[k].dot(centripetal), 0.1 * 0.1 / 12 * centripetal.norm());
@@ -135,7 +135,7 @@ TEST(PathRow, HoldsABeadOnAWireInSpace) {
   EXPECT_NEAR(J[0].dot(J[1]), 0, 1e-14);
   double states[2];
   M.p = points.back() + 0.1 * (points[60] - points[59]).normalized();
-  EXPECT_THROW(rows[0]->follow(F, M, 0, nullptr, states), NumericalError);
+  EXPECT_THROW(rows[0]->follow(F, M, 0, 0, nullptr, states), NumericalError);
 }
 
 }  // namespace

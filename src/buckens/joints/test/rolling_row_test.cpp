@@ -28,7 +28,7 @@ class Wheel : public ::testing::TestWithParam<double> {
                      const spatial::MarkerMotion& M) {
     Eigen::Matrix<double, 12, 1> V;
     V << F.w, F.v, M.w, M.v;
-    return row.evaluate(F, M, nullptr).J.dot(V);
+    return row.evaluate(F, M, 0, nullptr).J.dot(V);
   }
 };
 
@@ -39,9 +39,9 @@ TEST_P(Wheel, RatesAndAccelerationsAreThoseOfTheContact) {
   A << F.alpha, F.a, M.alpha, M.a;
   for (const Direction direction : {Direction::normal, Direction::ahead, Direction::aside}) {
     const RollingRow own = row(direction);
-    const RowValue value = own.evaluate(F.at(0), M.at(0), nullptr);
+    const RowValue value = own.evaluate(F.at(0), M.at(0), 0, nullptr);
     const double change = test::derivative([&](double t) { return rate(own, F.at(t), M.at(t)); });
-    const double bias = own.bias(F.at(0), M.at(0), {}, {}, nullptr);
+    const double bias = own.bias(F.at(0), M.at(0), {}, {}, 0, nullptr);
     // Fourth-order differences over 1e-3 of quantities of one.
     EXPECT_NEAR(value.J.dot(A) + bias, change, 1e-7);
     EXPECT_EQ(own.holds_rates_only(), direction != Direction::normal);
@@ -49,7 +49,7 @@ TEST_P(Wheel, RatesAndAccelerationsAreThoseOfTheContact) {
       EXPECT_EQ(value.g, 0.0);
       continue;
     }
-    const auto g = [&](double t) { return own.evaluate(F.at(t), M.at(t), nullptr).g; };
+    const auto g = [&](double t) { return own.evaluate(F.at(t), M.at(t), 0, nullptr).g; };
     EXPECT_NEAR(rate(own, F.at(0), M.at(0)), test::derivative(g), 1e-8);
   }
 }
@@ -59,7 +59,7 @@ TEST_P(Wheel, TouchesByItsLowestPlace) {
   spatial::MarkerMotion F, M;
   M.p = {0.3, -0.2, 0.6};
   M.R = spatial::exp_rotation({0.5, 0.1, -0.3}).toRotationMatrix();
-  const double g = row(Direction::normal).evaluate(F, M, nullptr).g;
+  const double g = row(Direction::normal).evaluate(F, M, 0, nullptr).g;
   const Vector3d n = Vector3d(0.2, -0.1, 0.9).normalized();
   const Vector3d a = M.R * Vector3d(0.1, 0.8, 0.3).normalized();
   const Vector3d u = a.unitOrthogonal();
@@ -78,7 +78,7 @@ TEST(RollingRow, RefusesAFlatWheel) {
   RollingRow::Data data;
   data.axis_M = Vector3d::UnitZ();
   const RollingRow row(data, Direction::normal);
-  EXPECT_THROW(row.evaluate({}, {}, nullptr), NumericalError);
+  EXPECT_THROW(row.evaluate({}, {}, 0, nullptr), NumericalError);
 }
 
 }  // namespace

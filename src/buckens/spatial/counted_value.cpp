@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/spatial/counted_value.h"
+
+#include <fmt/format.h>
+
+#include "buckens/base/errors.h"
+
+namespace buckens::spatial {
+
+double CountedValue::value() const { return kTurn * turns + fraction; }
+
+double difference(const CountedValue& from, const CountedValue& to) {
+  return kTurn * (to.turns - from.turns) + (to.fraction - from.fraction);
+}
+
+CountedValue follow_turns(const CountedValue& expected, double fraction) {
+  CountedValue out = expected;
+  out.fraction = fraction;
+  const double jump = expected.fraction - fraction;
+  // Few leave the turn where they were.
+  if (std::abs(jump) > 0.5 * kTurn) out.turns += static_cast<int>(std::lround(jump / kTurn));
+  return out;
+}
+
+void require_countable(const CountedValue& before, const CountedValue& after, double turn,
+                       const std::string& what) {
+  if (is_countable(before, after, turn)) return;
+  throw StepTooLong(fmt::format(
+      "{} goes from {:.4g} to {:.4g} {} within one step of {:.3g} s, so that one turn more or less "
+      "could be meant; use a smaller step",
+      what, before.rate, after.rate, turn == kTurn ? "rad/s" : "m/s", after.t - before.t));
+}
+
+}  // namespace buckens::spatial

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace buckens::spatial {
+
+inline constexpr double kTurn = 2.0 * std::numbers::pi;  ///< [rad]
+
+/// A coordinate with whole turns stored separately, so that many turns do not cost digits.
+struct CountedValue {
+  int turns = 0;        ///< of an angle; 0 of a displacement
+  double fraction = 0;  ///< angle within the turn, −π … π [rad], or displacement [m]
+  double rate = 0;      ///< where turns are counted [rad/s] or [m/s]
+  double t = 0;         ///< the instant to which it belongs [s]
+
+  /// The whole angle [rad] or displacement [m].
+  double value() const;
+};
+
+/// Where a coordinate would be at t if it went on at its rate: its fraction may leave the turn.
+inline CountedValue expected_at(const CountedValue& before, double t) {
+  return {before.turns, before.fraction + before.rate * (t - before.t), before.rate, t};
+}
+
+/// The counted angle that is nearest to the one expected, whose rate it keeps.
+/// @param fraction within the turn, −π … π [rad]
+CountedValue follow_turns(const CountedValue& expected, double fraction);
+
+/// Whether turns can be counted from one instant to another: the rate changes by so little that one
+/// turn more or less cannot be meant.
+/// @param turn after which it repeats [rad] or [m]
+inline bool is_countable(const CountedValue& before, const CountedValue& after, double turn) {
+  // Between two rates the way differs at most by so much from that of the first.
+  return std::abs(after.rate - before.rate) * (after.t - before.t) <= 0.5 * turn;
+}
+/// @param what names it @throws StepTooLong if it is not
+void require_countable(const CountedValue& before, const CountedValue& after, double turn,
+                       const std::string& what);
+
+/// How far an angle within the turn has turned: the way that is nearest to the one expected [rad].
+inline double way_turned(double from, double to, double expected) {
+  return expected + std::remainder(to - from - expected, kTurn);
+}
+
+/// Difference between two values of a coordinate, with all digits.
+double difference(const CountedValue& from, const CountedValue& to);
+
+}  // namespace buckens::spatial
