@@ -7,18 +7,18 @@
 
 namespace buckens::stepping {
 
-/// Bodies that blows at the same instant reach through joints and through what touches: each
-/// island has a blow of its own, at an instant of its own. The ground passes nothing on.
+/// Islands of bodies that impacts in the same step reach through joints and contacts. Each island
+/// has its own strongest impact, at its own instant. The ground transmits nothing.
 class BlowIslands {
  public:
   /// Bodies that joints connect are one island from the start.
   explicit BlowIslands(const model::Model& model);
 
-  /// Forgets what touched.
+  /// Forgets all contacts.
   void start() { leaders_ = joined_; }
   /// @param first,second bodies, or the ground
   void unite(int first, int second);
-  /// The body that stands for the island of one of two bodies, of which one may be the ground.
+  /// The body that represents the island of two bodies, one of which may be the ground.
   std::size_t of(int first, int second) const;
   std::size_t of(std::size_t body) const;
 

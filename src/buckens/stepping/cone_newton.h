@@ -8,19 +8,20 @@
 
 namespace buckens::stepping {
 
-/// Rows of one place where bodies touch: across first, then along.
+/// Rows of one place where bodies touch: the normal row first ("across"), then those along the
+/// surface.
 struct ConeRows {
   std::vector<Eigen::Index> rows;
   double coefficient = 0;  ///< μ
 };
 
-/// What impulses of friction do at most to one rate, by the rates that they are to change: beyond
-/// it they cancel out to more digits than half of theirs. Rows hold the same there, and friction
-/// jams.
+/// Largest effect of friction impulses on a rate, relative to the rates that they have to change:
+/// beyond it they cancel to more than half of their digits. Then rows hold the same thing, and
+/// friction jams.
 inline constexpr double kMostCancelled = 1e8;
 
-/// How the force of a place slides along its cone: most · towards, of which `turns` is the
-/// derivative with respect to the force on trial.
+/// Friction force of a place that slides: most · towards, where `turns` is the derivative of
+/// `towards` with respect to the trial force.
 struct SlidingCone {
   double most = 0;  ///< μ d P_n
   linalg::Vector towards;
@@ -28,14 +29,14 @@ struct SlidingCone {
 };
 
 /// @param trial d P_t − w_t of a place that is pressed, @param pressed d P_n
-/// @return empty: the cone admits it, the place sticks
+/// @return empty if the cone admits the trial force: the place sticks
 std::optional<SlidingCone> sliding_cone(const linalg::Vector& trial, double coefficient,
                                         double pressed);
 
-/// Newton's method on (I1) and (I2) of all places at once, by the projections of Alart and Curnier:
-/// a few solutions of a linear system where it converges, which it need not.
+/// Newton's method on (I1) and (I2) of all places at once, with the projections of Alart and
+/// Curnier. If it converges, which is not guaranteed, it solves a few linear systems.
 /// @param D of all rows, positive semidefinite, @param P start and result
-/// @return whether P satisfies them but for rounding
+/// @return whether P satisfies them to rounding
 bool find_by_newton(const linalg::Matrix& D, const linalg::Vector& b,
                     const std::vector<ConeRows>& places, linalg::Vector& P);
 

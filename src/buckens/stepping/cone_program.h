@@ -10,21 +10,21 @@
 
 namespace buckens::stepping {
 
-/// The impulses within all cones for which ½ PᵀDP − bᵀP is least:
+/// The impulses within all cones that minimise ½ PᵀDP − bᵀP:
 ///
 ///     w = D P − b,   |P_t| ≤ μ P_n,   w_n ≥ μ |w_t|,   Pᵀw = 0
 ///
 /// (Anitescu, Tasora: An iterative approach for cone complementarity problems for nonsmooth
-/// dynamics, 2010). This is (I1) and (I2) but for places that slide, which part by μ |w_t|. It is
-/// convex, so there is an answer wherever some velocities satisfy w_n ≥ μ |w_t|, and an
-/// interior-point method finds it: each round moves along Newton's direction for Pᵀw ever smaller,
-/// in the scaling of Nesterov and Todd, as far as the cones admit.
+/// dynamics, 2010). This equals (I1) and (I2) except for sliding places, which separate at μ |w_t|.
+/// The problem is convex, so a solution exists wherever some velocities satisfy w_n ≥ μ |w_t|. An
+/// interior-point method finds it: each round moves along Newton's direction for a smaller Pᵀw, in
+/// the scaling of Nesterov and Todd, as far as the cones admit.
 class ConeProgram {
  public:
   /// @param D of all rows, positive semidefinite
   ConeProgram(const linalg::SparseMatrix& D, const std::vector<ConeRows>& places);
 
-  /// @param P to about nine digits of the rates @return whether there is an answer
+  /// @param P to about nine digits of the rates @return whether there is a solution
   bool solve(const linalg::Vector& b, linalg::Vector& P);
 
  private:
@@ -33,7 +33,7 @@ class ConeProgram {
     Eigen::Index first = 0, size = 1;
     linalg::Matrix scaling, inverse;  ///< W with W s = W⁻¹ x
   };
-  /// x: impulses, s: rates, so scaled that all cones are |x_t| ≤ x_n; and Newton's directions.
+  /// x: impulses, s: rates, scaled such that all cones are |x_t| ≤ x_n; and Newton's directions.
   struct Iterate {
     linalg::Vector x, s, dx, ds;
   };

@@ -11,14 +11,14 @@
 
 namespace buckens::stepping {
 
-/// Rigid contacts with friction in the iteration of a step: which places let go, stick or slide,
-/// and which way, is decided for all of them together.
+/// Rigid contacts with friction in the iteration of a step: which contact points ("places") let go,
+/// stick or slide, and in which direction, is decided for all of them together.
 ///
-/// From the forces and rates that the iteration has come to, forces are found that satisfy (I1) and
-/// (I2) with what the rates change by them; rows then stand accordingly. On its own, each
-/// would know only its own force. Where more places hold than are needed, one of them may be given
-/// more than its own cone admits, if all together hold within theirs. Theory:
-/// docs/theory/25-contact.md §4.
+/// From the forces and rates that the iteration has reached, forces are found that satisfy (I1) and
+/// (I2) with the changes of rates that they cause; the rows get the stands that follow. A single
+/// row knows only its own force. If there are more places than needed, one of them may be given
+/// more than its own cone admits, as long as all together hold within theirs.
+/// Theory: docs/theory/25-contact.md §4.
 class ContactCones {
  public:
   /// An instant of the iteration.
@@ -35,26 +35,27 @@ class ContactCones {
   explicit ContactCones(const model::Model& model);
 
   bool empty() const { return places_.empty(); }
-  /// Whether a row of the state is one of those that are decided here, per rigid row.
+  /// Per rigid row: whether it is one of those that are decided here.
   const std::vector<char>& rows() const { return is_own_; }
-  /// Whether all places stand as their forces and rates ask. @param rows of the iteration
-  /// What has pushed over the step and pulls at its end only stays, and does not rub there.
+  /// Whether the stands of all places agree with their forces and rates. A place that has pushed
+  /// over the step and pulls only at its end stays closed, and has no friction there.
+  /// @param rows of the iteration
   bool hold(const std::vector<loads::RigidRow>& rows, const RigidRows& rigid) const;
-  /// Decides anew. @param per_force,per_change of the equations:
-  /// `compliance` times per_force is the displacement by a force, times per_change the change of
-  /// the rate
-  /// @return whether any row stands otherwise
+  /// Decides the stands of all places afresh.
+  /// @param per_force,per_change `compliance` times per_force is the displacement due to a force;
+  ///        times per_change as well, it is the change of the rate
+  /// @return whether the stand of any row has changed
   bool decide(const Instant& now, double per_force, double per_change, RigidRows& rigid);
-  /// Opens the rows along of a place whose row across is open.
+  /// Opens the friction rows of a place whose normal row is open.
   void follow(int across, RigidRows& rigid) const;
-  /// As decide(), for forces that are to act throughout a span of time, those across included: at
-  /// its end (I1) and (I2) hold, places stand accordingly, and their rows have these forces. Such
-  /// forces always exist, also where at the instant itself none do.
-  /// @param now with the rates of the rows that the end of the span would have without forces
+  /// Like decide(), for forces that act throughout a span of time, including normal forces: (I1)
+  /// and (I2) hold at its end, and the rows of all places get the stands and forces that follow.
+  /// Such forces always exist, even if there are none at the instant itself.
+  /// @param now with the rates that the rows would have at the end of the span without forces
   void hold_over(const Instant& now, double span, RigidRows& rigid);
 
  private:
-  /// One place: its row across and those along, which follow it.
+  /// One contact point: its normal row ("across") and its friction rows ("along"), which follow it.
   struct Place {
     const loads::ContactFriction* law;
     int across = 0;                        ///< rigid row
@@ -62,21 +63,21 @@ class ContactCones {
     int count = 1;                         ///< of directions
     loads::ContactFrictionData data = {};  ///< of the instant
   };
-  /// What a place has in the iteration.
+  /// Forces and slip of a place in the iteration.
   struct Now {
     double load = 0;                                  ///< across [N]
     Eigen::Vector2d slip = Eigen::Vector2d::Zero();   ///< [m/s]
     Eigen::Vector2d force = Eigen::Vector2d::Zero();  ///< along [N]
     bool is_pressed = false, sticks = false;
   };
-  /// The places that press, with the rows along which they push: first all those across.
+  /// The places that press, and the rows along which they push: first all normal rows.
   struct Pressed {
     std::vector<const Place*> places;
     std::vector<Push> pushes;
     std::vector<double> force, rate;  // of each push [N], [m/s]
     std::vector<ImpactSlip> slips;
   };
-  /// What (I1) and (I2) make of them.
+  /// The result of (I1) and (I2).
   struct Outcome {
     Pressed pressed;
     linalg::Vector impulses;  ///< of each push: per_force times its force
@@ -86,7 +87,7 @@ class ContactCones {
   Pressed gather(const std::vector<loads::RigidRow>& rows, const dynamics::SoftRows& soft,
                  const RigidRows& rigid) const;
   bool condense(const Instant& now, const RigidRows& rigid);
-  /// Whether any row along a place is in use.
+  /// Whether any friction row of a place is in use.
   static bool rubs(const Place& place, const std::vector<loads::RowStand>& stands);
   Outcome solve(const Instant& now, double per_force, double per_change,
                 const RigidRows& rigid) const;
@@ -94,7 +95,7 @@ class ContactCones {
                   const std::vector<loads::RowStand>& stands);
   static bool holds(const Place& place, const Now& now, const std::vector<loads::RigidRow>& rows,
                     const std::vector<loads::RowStand>& stands);
-  /// Whether a place sticks, with this force along it and this speed in the end.
+  /// Whether a place sticks, given its friction force and its final speed.
   static bool sticks(const Place& place, double load, const linalg::Vector& along, double speed);
   bool put(const Place& place, const linalg::Vector& force, double speed, RigidRows& rigid) const;
 

@@ -9,30 +9,30 @@
 
 namespace buckens::stepping {
 
-/// First guess of a step's iteration: multipliers and accelerations of the frames as parabolas
-/// through the last three steps. Where a motion is smooth, fewer iterations are needed from there
-/// than from the accelerations of the last step alone.
+/// Initial guess of a step's iteration: multipliers and accelerations of the frames, extrapolated
+/// by parabolas through the last three steps. If a motion is smooth, this saves iterations compared
+/// with the accelerations of the last step alone.
 ///
-/// It is a guess only: residuals, matrix and directions of the iteration know nothing of it. It
-/// depends on the state alone, so that a step that is repeated, or a run that goes on, finds the
-/// same to the last bit.
+/// It is a guess only: residuals, matrix and directions of the iteration do not depend on it. It
+/// depends on the state alone, so that a repeated step or a continued run finds the same guess bit
+/// for bit.
 class Forecast {
  public:
   /// @param L length by which angles count [m]
   Forecast(const Scheme& scheme, double L) : scheme_(scheme), L_(L) {}
 
-  /// Whether the state knows three steps without a jump between them, of which the first two would
-  /// have told the accelerations of the third better than the second alone. Vibrations that steps
-  /// do not resolve are not foretold.
+  /// Whether the state holds three steps without a jump between them, and the first two would have
+  /// predicted the accelerations of the third better than the second alone. Vibrations that the
+  /// steps do not resolve are not extrapolated.
   bool foretells(const model::State& state) const;
-  /// Weights of what the state, the step before and the earlier one say in the forecast.
+  /// Weights of the state, of the step before it and of the one before that.
   using Parabola = std::array<double, 3>;
   Parabola parabola(const model::State& state) const;
-  /// Accelerations of a frame as foretold.
+  /// Forecast accelerations of a frame.
   static Vector6 acceleration(const model::State& state, const Parabola& weights, std::size_t body);
   static void foretell_multipliers(const model::State& state, const Parabola& weights,
                                    linalg::Vector& lambda);
-  /// Changes increments of the frames and λ to those foretold.
+  /// Changes increments of the frames and λ to the forecast ones.
   /// @param bodies at the start of the step from `state`
   void apply(const model::State& state, std::vector<BodyStep>& bodies,
              linalg::Vector& lambda) const;

@@ -9,15 +9,15 @@ struct GapOfStep {
   double end, rate_end;
   double h;
 
-  /// Part of the step after which the cubic goes below zero for good, 0 … 1.
+  /// Fraction of the step after which the cubic stays below zero, 0 … 1.
   double closes_at() const;
-  /// Rate of the cubic after the part s of the step.
+  /// Rate of the cubic after the fraction s of the step.
   double rate_at(double s) const;
-  /// The same, but no faster or slower than at both ends by more than a tenth: a cubic that is has
-  /// gone through more than one place.
+  /// The same, but limited to the rates at both ends, extended by a tenth of the larger one: beyond
+  /// that, the cubic has passed through more than one contact point.
   double likely_rate_at(double s) const;
-  /// Whether the gap has changed over the step by clearly other than its rates allow: then its
-  /// place at the start is another one than at the end, as where an edge takes over from a face.
+  /// Whether the gap has changed by clearly more or less than its rates allow: its contact point at
+  /// the start then differs from that at the end, as where an edge takes over from a face.
   bool begins_elsewhere() const;
 };
 

@@ -10,8 +10,8 @@ namespace buckens::stepping {
 /// All bodies that a joint moves, some perhaps twice.
 std::vector<int> bodies_of(const model::Model& model, const model::Joint& joint);
 
-/// Which bodies deform by themselves, or are connected by joints with one that does: one entry for
-/// each body, not zero for these.
+/// Per body: not zero if its mesh moves by itself, or if joints connect it with a body whose mesh
+/// does.
 std::vector<char> mesh_partners(const model::Model& model);
 
 }  // namespace buckens::stepping

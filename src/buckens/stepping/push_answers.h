@@ -11,21 +11,21 @@
 
 namespace buckens::stepping {
 
-/// What a unit of a push does to one body.
+/// Response of one body to a unit push.
 struct PushedBody {
   std::size_t body = 0;
-  Vector6 u = Vector6::Zero();  ///< answer of the frame
-  Eigen::VectorXd y;            ///< and of the interface
-  Eigen::VectorXd load;         ///< on interface rows, with what joints add
+  Vector6 u = Vector6::Zero();  ///< of the frame
+  Eigen::VectorXd y;            ///< of the interface
+  Eigen::VectorXd load;         ///< on interface rows, including that of joints
 };
 
-/// A row along which something pushes, and what a unit of it does.
+/// A row along which a force or impulse acts, and the response to a unit of it.
 struct Push {
   dynamics::SystemRow row;
-  std::vector<PushedBody> bodies;  ///< that move, ascending
+  std::vector<PushedBody> bodies;  ///< those that move, ascending
 };
 
-/// What pushes along rows do to bodies and their joints. Springs take no part.
+/// Responses of bodies and their joints to pushes along rows. Springs are not included.
 class PushAnswers {
  public:
   /// @param model must outlive this object
@@ -38,16 +38,17 @@ class PushAnswers {
                 const std::vector<dynamics::BodyMotion>& motions,
                 const std::vector<int>& rows_in_use, const model::RowMemory* memory, double t,
                 const std::vector<dynamics::SystemRow>& closed = {});
-  /// Fills all but the row of a push.
+  /// Sets everything of a push except its row.
   void answer(Push& push) const;
-  /// What one push does along the row of another.
+  /// Response along a row to a push along another one.
   static double along(const dynamics::SystemRow& row, const Push& push);
-  /// What each push (column) does along the rows of all: entries where both reach a body.
+  /// Responses along the rows of all pushes (rows) to each of them (columns): entries where two
+  /// pushes reach a common body.
   static linalg::SparseMatrix along_all(const std::vector<const Push*>& pushes);
 
  private:
   void answer_with_joints(Push& push) const;
-  /// What a load does to one body.
+  /// Response of one body to a load.
   PushedBody move(std::size_t b, dynamics::BodyResponse load) const;
 
   const model::Model& model_;

@@ -37,21 +37,21 @@ class SmallNewton {
               std::vector<const BodyAnswer*> answers, std::vector<int> rows_in_use);
 
   /// What force laws may use in the next step; must outlive it. λ is read as it is iterated.
-  /// Rigid rows begin as the memory says.
+  /// Rigid rows begin with the stands in its memory.
   void use(const dynamics::Circumstances& around);
-  /// The same with the stands of rigid rows as iterated.
+  /// The same, with the stands of rigid rows as iterated.
   const dynamics::Circumstances& around() const { return around_; }
-  /// Whether rigid rows stand otherwise than at the start of the step.
+  /// Whether the stand of any rigid row differs from that at the start of the step.
   bool rigid_rows_changed() const { return rigid_.have_changed(); }
   /// See RigidRows::ends_have_turned().
   bool ends_have_turned() const { return rigid_.ends_have_turned(); }
-  /// Whether rigid rows that have moved too often in a step stay as they stand then, in place of a
-  /// failure: near its limit a set may admit a force or not by rounding.
+  /// Whether rigid rows that have moved too often in a step keep their last stands instead of
+  /// failing: near its limit, rounding decides whether a set admits a force.
   void accept_last_stands(bool accepts) { accepts_last_stands_ = accepts; }
   /// Whether it has done so in this step.
   bool has_accepted_stands() const { return has_accepted_stands_; }
-  /// Whether it is decided before the first iteration of a step how rigid contacts with friction
-  /// stand: iterations that begin with the stands of the step before may lead nowhere.
+  /// Whether the stands of rigid contacts with friction are decided before the first iteration of a
+  /// step: iterations that begin with the stands of the previous step may diverge.
   void decide_first(bool decides) { decides_first_ = decides; }
   bool has_rough_contacts() const { return !cones_.empty(); }
   /// Condenses the joints at the predicted configuration held in `bodies`.
@@ -110,9 +110,9 @@ class SmallNewton {
   void solve_correction(const std::vector<BodyStep>& bodies, double t);
   /// Largest motion of a frame by correction_ [m].
   double size_of_correction(const std::vector<BodyStep>& bodies) const;
-  /// Finds the correction where places stick. Those that stick in a ring, such as balls that wedge
-  /// each other, may leave only rolling a long way to close a gap of micrometres, which opens more
-  /// than it closes: then places slide by corrections. @return false if none sticks
+  /// Finds the correction where places stick. If they stick in a ring, as between wedged balls, the
+  /// only way to close a gap of micrometres may be to roll far, which opens more than it closes:
+  /// places then slide during corrections, (I10). @return false if none sticks
   bool correct_by_sliding(const std::vector<BodyStep>& bodies, double t);
   /// The rows of corrections without those that hold rates only. Null: they are dependent
   std::unique_ptr<dynamics::MultiplierCondensation> condense_without_sticking(double t);
@@ -152,18 +152,19 @@ class SmallNewton {
   const loads::RigidRow* closed_row(std::size_t soft) const;
   /// Moves rigid rows to where their sets put them, once all else is settled. @return whether any
   bool move_rigid_rows(double t, const StepReport& report);
-  /// Decides anew how rigid contacts with friction stand. @return whether any stands otherwise
+  /// Decides the stands of rigid contacts with friction. @return whether any has changed
   bool decide_cones(double t, const StepReport& report);
   /// Whether rigid rows may move on in this step.
   /// @throws StepFailure if they have moved too often, unless the last stands are accepted
   bool may_move(double t, const StepReport& report);
-  /// Whether the iteration goes on for so long that friction may turn to and fro.
+  /// Whether the iteration has gone on for so long that friction may alternate.
   bool is_restless(int iterations) const {
     constexpr int kRestless = 10;
     return !cones_.empty() && iterations % kRestless == 0;
   }
-  /// Lets a contact go whose place jumps to and fro, so that its gap does not close: what is there
-  /// then is found at the end of the step. @param change of the last iteration @return whether any
+  /// Lets a contact go whose place alternates between two positions, so that its gap does not
+  /// close; the contact there is found at the end of the step. @param change of the last iteration
+  /// @return whether there is any
   bool let_jumping_go(double change);
   /// Forms the matrix of multipliers again if a force law has changed its regime since. @return
   /// false if so

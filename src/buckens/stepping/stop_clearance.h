@@ -7,28 +7,28 @@
 
 namespace buckens::stepping {
 
-/// The least motion that takes bodies out of the ends of stops into which a step has led them.
+/// The smallest motion that takes bodies out of the ends of stops into which a step has led them.
 ///
-/// It is one of frames wherever joints let it be: meshes, which would store energy in it, give way
-/// a billionth of what they would in the metric of a step. Joints stay closed.
-/// Theory: docs/theory/23-impacts.md §2.
+/// Where joints permit, it is a motion of frames only: meshes, which would store energy in it,
+/// yield by a billionth of what they would in the metric of a step. Joints stay closed. Theory:
+/// docs/theory/23-impacts.md §2.
 class StopClearance {
  public:
   explicit StopClearance(const model::Model& model) : answers_to_(model) {}
 
-  /// What it does to one body.
+  /// Motion of one body.
   struct Shift {
     Vector6 frame = Vector6::Zero();  ///< body axes [rad], world axes [m]
     Eigen::VectorXd impulse_time;     ///< on interface rows, as BodyJump::impulse_time; empty: none
   };
-  /// One end: its row, away from it, and how far it is left, negative beyond it [m] or [rad].
+  /// One end: its row, pointing away from it, and its gap, negative beyond the end [m] or [rad].
   struct End {
     dynamics::SystemRow row;
     double gap = 0;
   };
 
   /// @param compliance as for impulses, @param motions where rows and joints are taken
-  /// @return empty if nothing is to be moved, or joints have become dependent
+  /// @return empty if nothing has to move, or if joints have become dependent
   std::vector<Shift> find(const std::vector<End>& ends,
                           const std::vector<dynamics::BodyCompliance>& compliance,
                           const std::vector<dynamics::BodyMotion>& motions,

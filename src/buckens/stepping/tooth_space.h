@@ -11,8 +11,8 @@
 
 namespace buckens::stepping {
 
-/// Flanks of teeth with play that pass half of a pitch in a step may be in any space between teeth
-/// at its end. Other loads pass. @param rate of the gap [m/s], @param h step [s]
+/// Refuses steps in which flanks of teeth with play pass half a pitch, because at the end they may
+/// be in any space between teeth. Other loads pass. @param rate of the gap [m/s], @param h step [s]
 /// @throws StepFailure naming the joint
 inline void require_same_space(const model::Load& load, double rate, double h) {
   const auto* flank = dynamic_cast<const model::GearFlank*>(load.element.get());
