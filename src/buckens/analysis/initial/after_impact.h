@@ -10,14 +10,14 @@
 namespace buckens::analysis {
 
 /// Closes the rates of joints and closed rigid rows by impulses along them.
-/// @param meshes answers the impulses for meshes, as in impacts: with what its steps resolve.
-///        Without, bodies are taken as rigid
+/// @param meshes gives the response of meshes to impulses, as in impacts, with what its steps
+///        resolve; null: bodies are taken as rigid
 /// @throws NumericalError at a singular position
 void close_rates(const model::Model& model, const std::vector<int>& rows_in_use,
                  const stepping::Stepper* meshes, model::State& state);
 
-/// Closes joints that are slightly open, by the least motion in the same metric. A gap that is left
-/// is closed by the next step.
+/// Closes joints that are slightly open, by the smallest motion in the same metric. A gap that
+/// remains is closed by the next step.
 /// @throws NumericalError at a singular position
 void close_gaps(const model::Model& model, const std::vector<int>& rows_in_use,
                 const stepping::Stepper* meshes, model::State& state);
@@ -26,10 +26,10 @@ void close_gaps(const model::Model& model, const std::vector<int>& rows_in_use,
 /// see settle_rigid_rows().
 ///
 /// A smooth step has ended with the accelerations of the motion without the impact. Those of the
-/// motion after it differ, since joints carry other forces at other velocities; where all bodies
-/// are rigid, the rest of the step is given the difference. Meshes are left as they are: their
-/// accelerations would bring in vibrations that the step does not resolve.
-/// @param before the step, whose samples hold until its end
+/// motion after the impact differ, because joint forces depend on velocities. If all bodies are
+/// rigid, the difference is applied over the rest of the step. Meshes are left as they are: their
+/// accelerations would excite vibrations that the step does not resolve.
+/// @param before state before the step, whose samples hold until its end
 /// @param rest time between impact and end of the step [s]
 /// @throws NumericalError as settle_rigid_rows()
 void settle_after_impact(const model::Model& model, const dynamics::MassMetric& metric,

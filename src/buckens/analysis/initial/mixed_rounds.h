@@ -8,13 +8,13 @@
 
 namespace buckens::analysis {
 
-/// Speeds up rounds x → g(x) of a linear problem, which converge slowly or not at all: takes the
-/// combination of what they have shown whose change is smallest (Anderson 1965; for linear g it is
-/// the method of conjugate residuals). Docs: docs/theory/08-coupling.md.
+/// Accelerates rounds x → g(x) of a linear problem that converge slowly or not at all: takes the
+/// combination of previous rounds whose change is smallest (Anderson 1965; for linear g this is the
+/// method of conjugate residuals). Theory: docs/theory/08-coupling.md.
 class MixedRounds {
  public:
-  /// @param x what a round began with @param g what it ended with
-  /// @return what the next one begins with
+  /// @param x start of a round @param g its result
+  /// @return start of the next round
   linalg::Vector mix(const linalg::Vector& x, const linalg::Vector& g) {
     linalg::Vector change = g - x;
     if (last_change_.size() > 0) keep(change - last_change_, g - last_);
@@ -33,7 +33,7 @@ class MixedRounds {
   // A difference with less of its own is rounding.
   static constexpr double kOwnShare = 1e-8;
 
-  /// Keeps changes orthonormal, and what the ends of rounds differ by along them.
+  /// Keeps changes orthonormal, and the differences of results along them.
   void keep(linalg::Vector change, linalg::Vector end) {
     if (changes_.size() == kMostKept) {
       changes_.clear();

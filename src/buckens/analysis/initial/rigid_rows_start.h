@@ -8,9 +8,9 @@
 
 namespace buckens::analysis {
 
-/// Finds accelerations, multipliers and the forces of rigid rows that belong together: rows whose
-/// set does not admit the force that would hold them go where the set puts them.
-/// @throws NumericalError naming the loads that find no stand that suits all
+/// Finds accelerations, multipliers and forces of rigid rows that are consistent with each other: a
+/// row whose set does not admit the force that would hold it gets the stand that the set requires.
+/// @throws NumericalError naming the loads for which no stands satisfy all sets
 void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& metric,
                        const std::vector<int>& rows_in_use, model::State& state);
 

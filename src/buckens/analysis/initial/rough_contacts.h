@@ -10,11 +10,12 @@
 
 namespace buckens::analysis {
 
-/// Rigid contacts with friction, whose stands at an instant are decided for all of them together.
+/// Rigid contacts with friction at an instant. Their stands are decided for all of them together.
+/// Theory: docs/theory/25-contact.md §4.
 class RoughContacts {
  public:
-  /// In this time bodies do not move: what friction would stop within it sticks, and what begins to
-  /// slide has a direction at its end [s].
+  /// A time in which bodies do not move: what friction would stop within it sticks, and what begins
+  /// to slide has a direction at its end [s].
   static constexpr double kInstant = 1e-6;
 
   /// @param model,metric,rows_in_use must outlive this object
@@ -24,23 +25,23 @@ class RoughContacts {
   /// Whether a row is decided here.
   bool owns(int rigid_row) const { return cones_.rows()[static_cast<std::size_t>(rigid_row)] != 0; }
 
-  /// Decides by accelerations. @param forces at the state
-  /// @return whether any stands otherwise now
+  /// Decides the stands from accelerations. @param forces at the state
+  /// @return whether any stand has changed
   bool decide(const dynamics::Forces& forces, model::State& state);
 
-  /// Finds forces that satisfy Coulomb's law at the end of a span of time that they act throughout,
-  /// and the accelerations that they make. At an instant there need not be any (Painlevé), or the
-  /// one that there is cannot be told from the others.
+  /// Finds forces that act throughout a span of time and satisfy Coulomb's law at its end, and the
+  /// accelerations that they cause. At an instant such forces need not exist (Painlevé), or they
+  /// cannot be distinguished from others.
   /// @param span [s]
   void hold_over(double span, model::State& state);
-  /// Whether accelerations would change velocities within a span by more than there is of slip, and
-  /// by more than comes of weight. Near a jam forces of an instant grow without bound, which would
-  /// last for that instant only. @param span of a step [s]
+  /// Whether accelerations would change velocities within a span by more than the fastest slip plus
+  /// a multiple of what weight does. Near a jam, forces at an instant grow without bound, but they
+  /// would last for that instant only. @param span of a step [s]
   bool are_sudden(const model::State& state, double span) const;
 
  private:
   void write(model::State& state) const;
-  /// What the rates of rows would be after a span with the accelerations of a state.
+  /// Rates that rows would have after a span with the accelerations of a state.
   void foresee(const std::vector<dynamics::BodyMotion>& motions, const model::State& state,
                double span, std::vector<loads::RigidRow>& rows) const;
 

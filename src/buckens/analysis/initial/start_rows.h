@@ -9,8 +9,8 @@
 
 namespace buckens::analysis {
 
-/// Rows that hold joint coordinates at the values, or at the rates, with which they start. They
-/// stand behind those of the joints while a start is looked for, and nowhere else.
+/// Rows that hold joint coordinates at their start values or start rates. They follow the rows of
+/// the joints, only while a start is being found.
 class StartRows {
  public:
   enum class Held { values, rates };
@@ -19,13 +19,13 @@ class StartRows {
             const std::vector<dynamics::BodyMotion>& as_placed);
 
   bool empty() const { return starts_.empty(); }
-  /// In how many steps values are gone to from where they are, so that assembly follows the branch
-  /// of a loop and screws count their turns.
+  /// Number of steps in which the values are approached, so that assembly follows the branch of a
+  /// loop and screws count their turns.
   int stages() const;
-  /// Appends the rows. @param share of the way to the values, 0 … 1
+  /// Appends the rows. @param share fraction of the way to the values, 0 … 1
   void append(const std::vector<dynamics::BodyMotion>& motions, double share,
               dynamics::Constraints& out) const;
-  /// Appends a length of comparison per row: that of the model for displacements.
+  /// Appends a reference length per row: that of the model for displacements.
   void append_lengths(linalg::Vector& out) const;
 
   /// What is missing, for a message: `"elbow" at 0.3 rad where 0.5 rad is asked for`.

@@ -19,20 +19,20 @@ namespace buckens::analysis {
 
 /// Integrates the work of loads, drives and dampers over the steps of a run: trapezoidal rule,
 /// so its error is of order h² like that of the steps. Dissipation in meshes comes from
-/// DampingWork. Keeps account of each load, drive, damped body and impact by itself, too; these sum
-/// up to the whole within rounding.
+/// DampingWork. Also keeps a separate account of each load, drive, damped body and impact; these
+/// add up to the total within rounding.
 class WorkAccount {
  public:
   /// @param holds_at_states whether states satisfy the equations of motion, see DampingWork
   WorkAccount(const model::Model& model, const model::State& start, bool holds_at_states = false);
 
   /// Adds the work between the last state and this one.
-  /// @param before the last state: where samples are taken at the end of the step, what follows
-  ///        them jumps after it; null: nothing jumps
+  /// @param before the last state: if samples are taken at the end of the step, what follows them
+  ///        jumps after it; null: nothing jumps
   void add(const model::State& state, const model::State* before = nullptr);
-  /// The same for a step in which something struck: rates jump within it, so those at its ends do
-  /// not tell the way, and the power of loads is formed with the mean ones.
-  /// @param before the last state, @param impacts of the step: what they took
+  /// The same for a step with impacts: rates jump within it, so those at its ends do not determine
+  /// the displacement, and the power of loads is formed with the mean rates.
+  /// @param before the last state, @param impacts energy taken by the impacts of the step
   void add_impacts(const model::State& before, const model::State& state,
                    const stepping::StepReport& impacts);
 
@@ -43,8 +43,8 @@ class WorkAccount {
   /// To be called when signals of the last state have jumped.
   void take_jump(const model::State& state) { add_shares(parameters_.of_jump(state)); }
 
-  /// To be called when pairs came near or went away: the loads of the model and what the last state
-  /// remembers of them have changed.
+  /// To be called when pairs have come near or gone away: the loads of the model and what the last
+  /// state remembers of them have changed.
   void follow_pairs(const model::State& state);
 
   /// To be called when inputs of the last state were changed: the next step starts with them.
@@ -101,8 +101,8 @@ class WorkAccount {
                  const linalg::Vector& g_t, const stepping::StepReport* impacts);
   void add_shares(std::span<const ParameterWork::Share> shares);
   double& part(std::size_t k) { return work_.parts[static_cast<Eigen::Index>(k)]; }
-  /// Power of friction in contacts that closed in an impact of this step: it is in the loss of the
-  /// impact, and begins with the next step [W]. Takes it out of means_.
+  /// Power of friction in contacts that closed in an impact of this step [W]: within the step it is
+  /// part of the loss of the impact. Takes it out of means_.
   double landed(const model::State& state);
 
   const model::Model& model_;

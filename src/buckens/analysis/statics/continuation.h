@@ -66,14 +66,15 @@ class StaticContinuation {
   /// The same point with independent joint rows chosen again: they may change along a path.
   std::optional<PathPoint> with_new_rows(const PathPoint& at);
 
-  /// The place nearby where a row of RestRows opens or closes, and the path beyond it, which may go
-  /// back from there: what softens meets a stop. Empty if no row is about to change.
+  /// The nearby point where a row of RestRows opens or closes, and the path beyond it, which may
+  /// turn back there, as when a softening structure meets a stop. Empty if no row is about to
+  /// change.
   std::optional<PathPoint> around_corner(const PathPoint& at);
 
   /// Gives rows to pairs of rigid contact groups that may meet within a full step from a point, and
-  /// takes them from all others. Within steps from there, pairs come, but do not go.
+  /// takes them from all others. Within steps from there, pairs are added but not removed.
   void look_around(PathPoint& at);
-  /// Fits a point that was found with others to the rows that there are now.
+  /// Transfers a point that was found with other rows to the present ones.
   void fit(PathPoint& at) const;
 
   /// Cosine of the angle between the path's directions, weighted like a step.
@@ -90,7 +91,7 @@ class StaticContinuation {
 
  private:
   static constexpr int kMaxIterations = 15;
-  /// Farther from the prediction than this [rad, or of the model's length] it is another
+  /// Further from the prediction than this [rad, or of the model's length], it is another
   /// equilibrium.
   static constexpr double kFarFromPrediction = 0.5;
 
@@ -114,7 +115,8 @@ class StaticContinuation {
   CornerValue corner_value(std::size_t row, const StaticPoint& point,
                            const StaticBalance& balance) const;
   bool lead_on(PathPoint& at);
-  /// @return whether pairs have come that may meet on a way, or gone unless it `keeps` them
+  /// @return whether pairs have been added that may meet on the way, or, unless it `keeps` them,
+  ///         removed
   bool follow_pairs(const StaticPoint& from, const StaticPoint& to, bool keeps);
   void fit(StaticPoint& point) const;
   PathPoint fitted(const PathPoint& at) const;

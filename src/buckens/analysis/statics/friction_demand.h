@@ -10,20 +10,20 @@
 
 namespace buckens::analysis {
 
-/// What frozen friction is asked to hold with.
+/// Force that frozen friction needs, compared with what it can give.
 struct FrictionDemand {
   std::string load;
-  double force = 0;  ///< that it takes [N] or [N m]
-  double most = 0;   ///< that friction gives [N] or [N m]
+  double force = 0;  ///< needed [N] or [N m]
+  double most = 0;   ///< available from friction [N] or [N m]
   bool is_torque = false;
 
-  /// Above one it would slide; HUGE_VAL where nothing presses.
+  /// Above one, it would slide; HUGE_VAL if nothing presses.
   double ratio() const;
   std::string text() const;
 };
 
-/// One entry per load with frozen friction, that of a contact summed over its places; of contacts
-/// of many bodies one for every two that rub.
+/// One entry per load with frozen friction, for a contact summed over its contact points; for
+/// contacts of many bodies one per pair with friction.
 /// @param state at rest, with the memory that set_static_state() leaves
 std::vector<FrictionDemand> friction_demands(const model::Model& model,
                                              const dynamics::MassMetric& metric,

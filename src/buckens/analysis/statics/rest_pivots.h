@@ -11,9 +11,10 @@ namespace buckens::analysis {
 ///
 ///     gap + J δx ≥ 0,   f + δf ≥ 0,   one of them zero, row by row
 ///
-/// by principal pivots from the rows that are closed now: all rows that disagree at once while
-/// their number falls, else the last of them alone, which comes to an end for any positive definite
-/// matrix (Júdice and Pires 1994). Where forces on curved surfaces make it indefinite, it may not.
+/// by principal pivots, starting from the rows that are closed now: all rows that disagree at once
+/// as long as their number falls, otherwise only the last of them. This terminates for any positive
+/// definite matrix (Júdice and Pires 1994), but possibly not where forces on curved surfaces make
+/// the matrix indefinite.
 class RestPivots {
  public:
   explicit RestPivots(const StaticSystem& system) : system_(system) {}
@@ -21,9 +22,9 @@ class RestPivots {
   enum class Outcome {
     settled,  ///< all rows agree with the step
     moved,    ///< some have moved: the step must be found again
-    lost      ///< they find no end, see lost_text()
+    lost      ///< they do not settle, see lost_text()
   };
-  /// Looks at the step that was found with `point`'s rows.
+  /// Checks the step that was found with the rows of `point`.
   Outcome revise(const StaticBalance& balance, const linalg::Vector& step, StaticPoint& point);
   /// Names the rows that do not settle.
   const std::string& lost_text() const { return lost_text_; }

@@ -12,7 +12,7 @@
 
 namespace buckens::analysis {
 
-/// A row of a force law that holds at rest without giving way.
+/// A row of a force law that holds rigidly at rest.
 struct RestRow {
   enum class Kind {
     one_sided,  ///< an end of a rigid stop, rope, cam or contact: gap ≥ 0, it only pushes
@@ -31,12 +31,13 @@ struct RestRow {
   double start = 0;       ///< of `held`: the value that it holds [m] or [rad]
 };
 
-/// Which rows are closed, and with what force: RowStand::regime is the end of a one-sided row, 1 of
-/// others, 0 if open. A row that has been opened keeps its force until the next step takes it away.
+/// Which rows are closed, and their forces: RowStand::regime is the end of a one-sided row, 1 for
+/// other closed rows, 0 if open. A row that has been opened keeps its force until the next step
+/// removes it.
 using RestStands = std::vector<loads::RowStand>;
 
-/// How many of the rows belong to a pair of a rigid contact group. The rows of all pairs that are
-/// near each other stand behind all others.
+/// How many of the rows belong to a pair of a rigid contact group. The rows of all near pairs
+/// follow all others.
 struct PairRows {
   model::NearPair pair;
   std::size_t count = 0;
@@ -48,7 +49,7 @@ using RestOrder = std::vector<PairRows>;
 struct RestValues {
   std::vector<dynamics::SystemRow> rows;  ///< derivatives
   std::vector<double> values;             ///< of the coordinates [m] or [rad]
-  std::vector<Eigen::Vector3d> pushes;    ///< what a unit force pushes the second marker with
+  std::vector<Eigen::Vector3d> pushes;    ///< force on the second marker per unit force of the row
   std::vector<loads::RigidLaw::Contact> contacts;  ///< of one-sided rows: the nearer end
   std::vector<char> presses;                       ///< of elastic contacts: whether the spot does
 };
@@ -57,21 +58,21 @@ struct RestValues {
 class RestRows {
  public:
   /// @param model must outlive this object
-  /// @param state as it starts: loads that are off have no rows, frozen friction holds what is here
+  /// @param state at the start: loads that are off have no rows, frozen friction holds it
   /// @param groups of this model, must outlive this object; null: it has no rigid contact groups
   RestRows(const model::Model& model, model::RestFriction friction, const model::State& state,
            model::RigidPairs* groups = nullptr);
 
-  /// Gives rows to pairs of rigid contact groups that may meet on a way.
+  /// Gives rows to pairs of rigid contact groups that may meet during a motion.
   /// @param way the bodies at its start, with velocities that lead to its end within 1 s
-  /// @param keeps others keep theirs, else they lose them
-  /// @return whether rows have come or gone: what has one entry per row is then to be carried()
+  /// @param keeps other pairs keep their rows; otherwise they lose them
+  /// @return whether rows have been added or removed; data per row must then be carried()
   bool follow_pairs(const std::vector<dynamics::BodyMotion>& way, bool keeps);
   /// Pairs that have rows, in their order.
   const RestOrder& order() const { return order_; }
-  /// Where each row stood when pairs had rows in this order; −1: it is new.
+  /// Position of each row when pairs had rows in this order; −1: it is new.
   std::vector<int> places_in(const RestOrder& then) const;
-  /// Stands of then as those of the rows there are now. What is new is open.
+  /// Transfers earlier stands to the present rows. New rows are open.
   RestStands carried(const RestOrder& then, const RestStands& stands) const;
 
   const model::Model& model() const { return model_; }
@@ -89,7 +90,7 @@ class RestRows {
   void evaluate(const std::vector<dynamics::BodyMotion>& motions, double t, RestValues& out) const;
   /// Adds Jᵀf.
   void add_forces(const RestValues& values, const RestStands& stands, dynamics::Forces& out) const;
-  /// What a closed row leaves open [m] or [rad].
+  /// Remaining gap of a closed row [m] or [rad].
   double gap(std::size_t k, const RestValues& values, int regime) const;
   /// Force that a one-sided row pushes with, whatever its end; negative: it would pull.
   double push(std::size_t k, const loads::RowStand& stand) const;
@@ -98,13 +99,13 @@ class RestRows {
 
   /// Stands at the start: what touches is closed, what friction freezes is held.
   RestStands start(const RestValues& values) const;
-  /// Closes what touches and takes all forces away, so that rows which share a load share it as
-  /// evenly as they can, whatever led here.
+  /// Closes what touches and removes all forces, so that rows that share a load share it as evenly
+  /// as possible, whatever the way to this configuration.
   void share(const RestValues& values, RestStands& stands) const;
-  /// Friction along a surface holds while what presses is closed and touched before the step, of
-  /// elastic contacts where they overlap.
+  /// Friction along a surface holds while the normal row is closed and touched before the step; for
+  /// elastic contacts, where they overlap.
   void follow_contacts(const RestValues& values, RestStands& stands) const;
-  /// Opens what is closed without a force worth the name.
+  /// Opens what is closed without a noticeable force.
   void open_unloaded(double force, RestStands& stands) const;
   /// Largest gap below zero of open rows, as a share of the model's length or of 1 rad.
   double deepest(const RestValues& values, const RestStands& stands) const;
@@ -126,7 +127,7 @@ class RestRows {
   /// Rows of Model::pair_loads.
   void add_rigid_pairs();
   bool is_off(const model::NearPair& pair) const;
-  /// All pairs that may touch: which of them do is known at the end.
+  /// All pairs that may touch; which of them do is known at the end.
   void add_pairs(std::size_t load);
   void evaluate_pair(std::size_t k, const std::vector<dynamics::BodyMotion>& motions, double t,
                      std::vector<loads::SoftRow>& soft, RestValues& out) const;

@@ -23,7 +23,7 @@ struct StaticPoint {
 /// The bodies at rest in a configuration.
 std::vector<dynamics::BodyMotion> motions_at(const model::Model& model, const StaticPoint& point);
 
-/// The bodies as they set out from one configuration to reach another within 1 s.
+/// The bodies in one configuration, with velocities that lead to another one within 1 s.
 std::vector<dynamics::BodyMotion> motions_towards(const model::Model& model,
                                                   const StaticPoint& from, const StaticPoint& to);
 
@@ -47,11 +47,11 @@ struct StaticBalance {
 /// multipliers are exact.
 class StaticSystem {
  public:
-  /// Share of its own compliance by which a closed row of RestRows gives way to a change of its
-  /// force within an iteration, so that rows which hold the same have forces at all. Rounding moves
-  /// forces among them by about 1e-16 of the change over this.
+  /// Fraction of its own compliance by which a closed row of RestRows yields to a change of its
+  /// force within an iteration, so that rows that hold the same thing have definite forces.
+  /// Rounding moves forces among them by about 1e-16 of the change, divided by this.
   static constexpr double kGive = 1e-10;
-  /// The same where their forces are found anew.
+  /// The same when their forces are computed afresh.
   static constexpr double kGiveOfSharing = 1e-6;
 
   /// @param compliance one entry per body, null for rigid ones
