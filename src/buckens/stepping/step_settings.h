@@ -23,20 +23,21 @@ struct StepSettings {
   double outer_tolerance = 1e-6;    ///< relative change of the coupling load
   bool iterate_coupling = false;    ///< to outer_tolerance; otherwise a second large solve is the
                                     ///< last if its coupling load was accurate to 1e-4
-  /// Most answers to changes of the coupling load that are kept per factor, for recycling; 0: none.
+  /// Largest number of responses to changes of the coupling load that are kept per factor, for
+  /// recycling; 0: none.
   int kept_solves = 80;
   int max_newton = 40;
   int max_outer = 30;
   int threads = 1;  ///< ≥ 1; does not influence results
-  /// Mechanisms of many small bodies step eight at a time; else one by one, which takes longer.
+  /// Small bodies of large mechanisms step eight at a time; otherwise one by one, which is slower.
   bool side_by_side = true;
-  /// Instructions that these are stepped with; the processor must have them.
+  /// Instruction set for these; the processor must have it.
   linalg::SimdLevel simd = linalg::best_simd_level();
   /// Per joint, whether it has let go where the rows in use were chosen; empty: none has.
   std::vector<char> released;
   /// Shares factors and solves with steppers that run side by side; null: alone.
   linalg::SolveExchange* exchange = nullptr;
-  /// Factorises the step matrices of bodies in place of linalg::make_large_factor_of(); an exchange
+  /// Factorises the step matrices of bodies instead of linalg::make_large_factor_of(); an exchange
   /// has its own.
   linalg::MakeFactor make_factor;
 
@@ -61,7 +62,7 @@ struct ShapeAndRates {
 struct StepReport {
   int newton_iterations = 0;
   int large_solve_rounds = 0;    ///< rounds in which some body solved; 0: all rigid
-  int recycled_rounds = 0;       ///< rounds in which kept solves answered all that bodies asked
+  int recycled_rounds = 0;       ///< rounds for which kept solves sufficed
   double position_residual = 0;  ///< max |g| [m] or [-]
   double velocity_residual = 0;  ///< max |ġ|
   int worst_row = -1;            ///< of λ, where |g| is largest
@@ -72,24 +73,24 @@ struct StepReport {
   double coupling_change = 0;  ///< last relative change of the coupling load
   int impacts = 0;             ///< against rigid stops
   double impact_loss = 0;      ///< energy lost in them [J]
-  /// Of them, those that should have rebounded and were stopped, since friction jams.
+  /// Number of those that should have rebounded but were stopped, because friction jams.
   int jammed_impacts = 0;
-  /// Whether places that slide part or close by a millionth of the largest rate at most: impulses
-  /// of ConeEnd::near.
+  /// Whether some impulses are those of ConeEnd::near: sliding places separate or approach at a
+  /// millionth of the largest rate at most.
   bool has_near_impulses = false;
   std::span<const ImpactShare> impact_shares{};  ///< of the loss, valid until the next step
-  /// Per body, what it had at the end of the step before blows that are counted by the energy that
-  /// all bodies have less of; empty where there are none. Valid until the next step.
+  /// Per body, shape and rates at the end of the step before impacts whose loss is the energy that
+  /// all bodies lose; empty if there are none. Valid until the next step.
   std::span<const ShapeAndRates> before_blows{};
   double impact_rest = 0;  ///< from their mean instant to the end of the step [s]
-  /// Whether accelerations have jumped, so that they have to be found anew at the end of the step:
-  /// by impacts, or by rigid rows that now hold otherwise.
+  /// Whether accelerations have jumped and have to be computed afresh at the end of the step:
+  /// because of impacts, or because the stands of rigid rows have changed.
   bool must_settle = false;
-  /// Whether an end on a mesh has let go or pulls at the end of the step only, without blows:
-  /// before that, rates have to be taken to their mean, see Stepper::take_mean_of_turning().
+  /// Whether an end on a mesh has let go, or pulls at the end of the step only, without impacts:
+  /// rates then have to be set to their mean first, see Stepper::take_mean_of_turning().
   bool ends_have_turned = false;
   /// Whether no combination of holding and releasing satisfied all rigid rows, and the last one was
-  /// taken.
+  /// accepted.
   bool has_undecided_rows = false;
 };
 

@@ -66,7 +66,7 @@ class Stepper {
   void accept_last_stands(bool accepts);
   /// For the following steps, see SmallNewton::decide_first().
   void decide_first(bool decides);
-  /// Whether there is anything to be decided so.
+  /// Whether there are contacts for decide_first().
   bool has_rough_contacts() const { return newton_->has_rough_contacts(); }
 
   /// Threads for the following steps, ≥ 1.
@@ -93,18 +93,17 @@ class Stepper {
   /// Bytes that one pass over the factors of all bodies reads.
   double factor_bytes() const;
   /// Jump of the interface rates per impulse along the rows of the interface, k₀ N Y K̂⁻¹Nᵀ [1/kg],
-  /// as the method would answer it: without vibrations that the step does not resolve. Empty for
+  /// as the method would respond: without vibrations that the step does not resolve. Empty for
   /// bodies whose mesh does not move by itself.
   linalg::Matrix impulse_compliance(std::size_t body) const;
   /// Adds the same for all nodal rates.
   void add_impulse(std::size_t body, const linalg::Vector& impulse, linalg::Vector& rates) const;
-  /// For algorithmic accelerations of meshes that are the true ones, as where these have been found
-  /// anew: takes out of them what the step does not resolve, if the method damps, (I9). One solve
+  /// For algorithmic accelerations of meshes that equal the true ones, as after these have been
+  /// computed afresh: removes what the step does not resolve, if the method damps, (I9). One solve
   /// per mesh.
   void filter_algorithmic(model::State& state);
-  /// Takes rates of meshes that strong damping turns round from step to step to their mean over the
-  /// last one, (I11); rows may be open by it. Two solves per damped mesh. @return whether there are
-  /// any
+  /// Sets rates of meshes that strong damping reverses from step to step to their mean over the
+  /// last one, (I11); this may open rows. Two solves per damped mesh. @return whether there are any
   bool take_mean_of_turning(const model::State& before, model::State& after);
   const Scheme& scheme() const { return scheme_; }
   /// Joint rows in use at the last step.
@@ -117,11 +116,11 @@ class Stepper {
   void visit_saved(const base::SaveVisit& visit);
 
  private:
-  /// How the large solves of a round were answered.
+  /// How the solutions of a round were obtained.
   enum class Answers { none_asked, all_recycled, solved };
   StepReport take_step(const model::State& state, model::State& end);
-  /// Makes what follows from the loads: again where pairs came near or went away, continuing from
-  /// what was saved of it.
+  /// Makes what follows from the loads; again when pairs have come near or gone away, continuing
+  /// from what was saved of it.
   void make_iteration(std::vector<int> rows_in_use);
   void follow_pairs();
   StepReport take_general_step(const model::State& state);
@@ -137,13 +136,13 @@ class Stepper {
   void take_over_coupling();
   void compute_round(const model::State& state, int round, StepReport& report);
   CouplingRounds::Gap compare_coupling(const model::State& state);
-  /// What a state has besides bodies and memory.
+  /// The parts of a state besides bodies and memory.
   void form_next_instant(const model::State& state);
   void form_next_state(const model::State& state);
-  /// Lets what has run into rigid stops leave them again, at the end of the step.
+  /// Applies the impacts of what has run into rigid stops, at the end of the step.
   void take_impacts(StepReport& report);
   void add_jump(std::size_t b, const BodyJump& jump, dynamics::BodyMotion& motion);
-  /// Keeps what damped meshes had before the jumps.
+  /// Keeps shapes and rates of damped meshes before the jumps.
   void keep_before_blows();
   void group_factors();
   /// Calls f(b) for every body, in parallel where that pays; results must not depend on the order.
