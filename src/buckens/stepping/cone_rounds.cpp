@@ -14,14 +14,14 @@ using linalg::Vector;
 namespace {
 
 constexpr int kMostSlipRounds = 128;
-// After so many rounds it is tried to finish, and again whenever there have been twice as many.
+// Finishing is tried after this many rounds, and again whenever their number has doubled.
 constexpr int kFirstFinish = 2;
-// Slips by this share of the largest rate are rounding of the convex problems.
+// Slips of this fraction of the largest rate are rounding of the convex problems.
 constexpr double kSameSlip = 1e-8;
-// Places that slide may part by this share of the largest rate where rounds lead away from an end
-// that is not finished: what wedges itself with hardly any impulses to spare.
+// Sliding places may separate at this fraction of the largest rate if rounds lead away from a
+// solution that cannot be finished: wedged bodies with hardly any impulses to spare.
 constexpr double kHardlyOtherSlip = 1e-6;
-// By this share of the largest rate Newton's method may go on from a round.
+// Newton's method may change rates by this fraction of the largest one, starting from a round.
 constexpr double kNear = 0.1;
 
 /// μ |w_t| of a place.
@@ -61,7 +61,7 @@ ConeEnd find_in_cones(const linalg::SparseMatrix& D, const Vector& b,
     const bool is_same = change <= kSameSlip * size;
     if (round < next_finish && !is_same) continue;
     Vector exact = P;
-    // Where friction nearly jams Newton's method ends elsewhere, with impulses that make rates
+    // Where friction nearly jams, Newton's method ends elsewhere, with impulses that make rates
     // grow.
     if (finish(exact) && (D * (exact - P)).cwiseAbs().maxCoeff() <= kNear * size) {
       P = std::move(exact);

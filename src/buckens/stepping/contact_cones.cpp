@@ -9,10 +9,10 @@ using linalg::Vector;
 
 namespace {
 
-// Angle between friction and slip, and share of the cone, that rounding may make.
+// Angle between friction and slip, and fraction of the cone, that may be rounding.
 constexpr double kAligned = 1e-7;
 constexpr double kInside = 1e-10;
-// Rates by this share of what forces do to them are rounding.
+// Rates of this fraction of the effect of forces on them are rounding.
 constexpr double kNoRate = 1e-9;
 
 }  // namespace
@@ -117,8 +117,8 @@ bool ContactCones::condense(const Instant& now, const RigidRows& rigid) {
   if (now.memory != nullptr) {
     for (Place& place : places_) place.data = place.law->data_at(now.memory->signals);
   }
-  // Other rigid rows, as stops and locks, go on as they stand, and so do places that pull at the
-  // end only.
+  // Other rigid rows, such as stops and locks, keep their stands, and so do places that pull only
+  // at the end.
   std::vector<dynamics::SystemRow> others;
   for (std::size_t k = 0; k < now.soft.rows.size(); ++k) {
     const int row = now.soft.rigid[k];
@@ -141,10 +141,11 @@ ContactCones::Outcome ContactCones::solve(const Instant& now, double per_force, 
   std::vector<const Push*> all;
   for (const Push& push : pushes) all.push_back(&push);
   linalg::SparseMatrix D = PushAnswers::along_all(all);
-  // Gyroscopic terms make it a little unsymmetric, and sweeps over places that hold the same drift.
+  // Gyroscopic terms make it slightly unsymmetric, which would let sweeps over places that hold the
+  // same thing drift.
   const linalg::SparseMatrix turned = D.transpose();
   D = 0.5 * (D + turned);
-  // Rates in changes of the step's end.
+  // Rates, converted to changes at the end of the step.
   const Vector P = per_force * Eigen::Map<const Vector>(out.pressed.force.data(), n);
   const Vector b = D * P - Eigen::Map<const Vector>(out.pressed.rate.data(), n) / per_change;
   out.impulses = solve_impact(D, b, std::ssize(out.pressed.places), out.pressed.slips);
@@ -167,7 +168,7 @@ bool ContactCones::decide(const Instant& now, double per_force, double per_chang
     const ImpactSlip& own = found.pressed.slips[k];
     Vector force(1 + own.count);
     force << found.impulses[own.across], found.impulses.segment(own.first, own.count);
-    // A place that others hold as well needs no force of its own; it stays closed.
+    // A place that others hold, too, needs no force of its own; it stays closed.
     if (!(force[0] > 0.0) && found.rates[own.across] <= found.none) continue;
     const double speed = found.rates.segment(own.first, own.count).norm();
     has_moved = put(*found.pressed.places[k], force / per_force, speed, rigid) || has_moved;
@@ -225,7 +226,7 @@ bool ContactCones::put(const Place& place, const Vector& force, double speed,
   bool has_moved = is_held;
   int regime = 1;
   if (!is_held) {
-    // Another number of the regime for another direction.
+    // A new direction gets a new regime number.
     Vector old(place.count);
     for (int k = 0; k < place.count; ++k) {
       old[k] = rigid.stands()[static_cast<std::size_t>(place.across + 1 + k)].force;

@@ -19,12 +19,11 @@ using linalg::Vector;
 
 namespace {
 
-// Changes of rates by this share of what impulses do to them, and those that may be rounding where
-// they do not fall any more. How places share an impulse is less certain, but no rate depends on
-// it.
+// Changes of rates, as a fraction of the effect of the impulses; and those that may be rounding if
+// they no longer fall. How places share an impulse is less certain, but no rate depends on it.
 constexpr double kSameRates = 1e-14;
 constexpr double kRoundingOfRates = 1e-10;
-// Answers by this share of the largest answer of all.
+// Response of a place, as a fraction of the largest of all.
 constexpr double kNoAnswerOfPlace = 1e-12;
 constexpr int kMostNewtonRounds = 12;
 constexpr int kSweepsBetween = 20;        // place by place, between Newton's
@@ -32,10 +31,10 @@ constexpr int kMostAgreements = 50;       // rounds of across and along
 constexpr int kMostSlipSweeps = 1000;     // over those along, per round
 constexpr int kMostSweeps = 500;          // place by place
 constexpr int kMostHalfSweeps = 2000;     // the same by half of each change
-constexpr int kMostBlows = 10000;         // in turn
+constexpr int kMostBlows = 10000;         // one after the other
 constexpr Eigen::Index kMostDense = 150;  // rows; more of them as a sparse system
 
-/// The places that are struck, each with its rows: across, then along.
+/// The places that are struck, each with its rows: normal ("across"), then tangential ("along").
 class Places {
  public:
   Places(const Matrix& D, const Vector& b, Eigen::Index num_across,
@@ -62,8 +61,8 @@ class Places {
     return out;
   }
 
-  /// The impulses of (I1) and (I2): all those across with those along, and the other way round.
-  /// What holds the same is shared alike. @return whether both agree
+  /// The impulses of (I1) and (I2): all normal ones with the tangential ones fixed, and the other
+  /// way round. Places that hold the same thing get equal shares. @return whether both agree
   bool agree(Vector& P) const {
     const auto count = static_cast<Eigen::Index>(places_.size());
     const auto across = Eigen::seqN(Eigen::Index{0}, count);
@@ -91,8 +90,8 @@ class Places {
     return false;
   }
 
-  /// The impulses of (I1) and (I2): each place's in turn, with those of the others.
-  /// @param share of each change that is made @return whether the rates have settled
+  /// The impulses of (I1) and (I2): those of each place in turn, with those of the others fixed.
+  /// @param share fraction of each change that is made @return whether the rates have settled
   bool settle(Vector& P, double share, int most_sweeps) const {
     double change = 0.0, size = 0.0;
     Vector last = P;
@@ -110,8 +109,8 @@ class Places {
     return change <= kRoundingOfRates * share * size;
   }
 
-  /// Blows one after the other, always where the bodies approach each other most, until they do not
-  /// any more. None of them takes back what another has done. @return whether they come to an end
+  /// Impacts one after the other, always where the bodies approach fastest, until none approach any
+  /// more. None of them takes back the effect of another. @return whether they come to an end
   bool strike_in_turn(Vector& P) const {
     P.setZero(D_.rows());
     for (int blow = 0; blow < kMostBlows; ++blow) {
@@ -130,7 +129,7 @@ class Places {
   }
 
  private:
-  /// Impulses along for given ones across. @return whether the rates have settled
+  /// Tangential impulses for given normal ones. @return whether the rates have settled
   bool settle_slips(Vector& P) const {
     double change = 0.0, size = 0.0;
     Vector last = P;
@@ -160,7 +159,7 @@ class Places {
     Eigen::Index row(Eigen::Index k) const { return rows[static_cast<std::size_t>(k)]; }
   };
 
-  /// Of the rows of a place from the given one on.
+  /// Rates of the rows of a place, from the given one on.
   PlaceVector rates(const Place& place, const Vector& P, Eigen::Index first) const {
     PlaceVector out(static_cast<Eigen::Index>(place.rows.size()) - first);
     for (Eigen::Index k = 0; k < out.size(); ++k) {
@@ -169,7 +168,7 @@ class Places {
     }
     return out;
   }
-  /// What impulses do to the rates at most.
+  /// Largest effect of impulses on the rates.
   double size_of_rates(const Vector& P) const { return (sizes_ * P.cwiseAbs()).maxCoeff(); }
 
   const Matrix& D_;
@@ -179,14 +178,14 @@ class Places {
   std::vector<Place> places_;
 };
 
-/// Whether what impulses do cancels out to more digits than they have: rows that hold the same, and
-/// friction that jams.
+/// Whether the effects of impulses cancel to more digits than they have: rows hold the same thing,
+/// and friction jams.
 bool do_cancel(const Matrix& D, const Vector& b, const Vector& P) {
   const double size = (D.cwiseAbs() * P.cwiseAbs()).maxCoeff();
   return !(size <= kMostCancelled * b.cwiseAbs().maxCoeff());
 }
 
-/// Impulses of one group of places that answer each other.
+/// Impulses of one group of places that influence each other.
 class GroupSolver {
  public:
   GroupSolver(const Matrix& D, const Vector& b, Eigen::Index num_across,
@@ -200,7 +199,7 @@ class GroupSolver {
     try {
       for (int round = 0; round < kMostNewtonRounds; ++round) {
         if (finish(P)) return true;
-        // Sweeps bring it on.
+        // Sweeps make progress.
         if (round == 0 || !is_good(P)) P = start;
         const double share = round % 2 == 0 ? 1.0 : 0.5;
         if (places_.settle(P, share, kSweepsBetween) && is_good(P)) return true;
@@ -209,12 +208,13 @@ class GroupSolver {
              (places_.settle(from_start(), 0.5, kMostHalfSweeps) && is_good(P)) ||
              (places_.agree(from_start()) && is_good(P)) ||
              (places_.strike_in_turn(P) && is_good(P));
-    } catch (const StepFailure&) {  // one place jams by itself, with what the others do so far
+    } catch (
+        const StepFailure&) {  // one place jams on its own, with the present impulses of others
       return false;
     }
   }
 
-  /// All places at once, where they wedge each other.
+  /// All places at once, for wedged bodies.
   ConeEnd find_in_cones(Vector& P) const {
     const auto exact = [this](Vector& near) { return finish(near); };
     const ConeEnd end = stepping::find_in_cones(D_.sparseView(), b_, rows_, exact, P);
@@ -239,7 +239,7 @@ Vector solve_together(const Matrix& D, const Vector& b, Eigen::Index num_across,
   try {
     P(across) = solve_complementarity(D(across, across), b(across));
   } catch (const StepFailure&) {
-    if (slips.empty()) throw;  // else it is a start only
+    if (slips.empty()) throw;  // otherwise it is only an initial guess
   }
   if (slips.empty()) return P;
   const GroupSolver solver(D, b, num_across, slips);
@@ -252,7 +252,7 @@ Vector solve_together(const Matrix& D, const Vector& b, Eigen::Index num_across,
       "jams; give the contact a `stiffness`, or less `static`");
 }
 
-/// Rows of one-sided rows and their slips that answer each other, group by group; ascending.
+/// One-sided rows and their slips that influence each other, group by group; ascending.
 class ImpactGroups {
  public:
   ImpactGroups(const linalg::SparseMatrix& D, const std::vector<ImpactSlip>& slips)
@@ -335,7 +335,7 @@ Vector solve_impact(const linalg::SparseMatrix& D, const Vector& b, Eigen::Index
   Vector P(D.rows());
   const ImpactGroups groups(D, slips);
   for (const std::vector<Eigen::Index>& group : groups.rows()) {
-    // Rows keep their order: across, then along.
+    // Rows keep their order: normal, then tangential.
     const auto place_of = [&](Eigen::Index row) {
       return std::lower_bound(group.begin(), group.end(), row) - group.begin();
     };

@@ -9,12 +9,12 @@ namespace buckens::stepping {
 namespace {
 
 constexpr int kBisections = 60;
-// A gap at the start of the step that is no more than this share of what it ends with is none.
+// A gap at the start of the step that is at most this fraction of that at its end counts as none.
 constexpr double kOnTheEnd = 1e-6;
-// Beyond both rates, and their difference, by this share of the larger one the mean rate of a step
-// cannot be.
+// The mean rate of a step lies outside of the rates at its ends by no more than their difference
+// plus this fraction of the larger one.
 constexpr double kOtherRate = 0.5;
-// Share of the larger rate by which rates within a step go beyond those at its ends.
+// Fraction of the larger rate by which rates within a step may exceed those at its ends.
 constexpr double kBeyond = 0.1;
 
 }  // namespace
@@ -31,7 +31,7 @@ double GapOfStep::closes_at() const {
   for (int k = kLooks - 1; k >= 0; --k) {
     open = static_cast<double>(k) / kLooks;
     if (gap(open) > 0.0) break;
-    // It never was: it began on the end, or nothing is left of the step to be made good.
+    // It never was open: it began on the end, or no time is left in the step.
     if (k == 0) return start >= kOnTheEnd * end ? 0.0 : 1.0;
   }
   double closed = open + 1.0 / kLooks;

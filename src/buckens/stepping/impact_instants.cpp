@@ -12,11 +12,11 @@ namespace buckens::stepping {
 
 namespace {
 
-// What comes with less than this share of the energy that it has at the end of the step does not
-// strike: it is pressed there from the beginning.
+// What arrives with less than this fraction of the energy that it has at the end of the step does
+// not strike: it is pressed there from the beginning.
 constexpr double kPressed = 0.5;
 
-/// A motion as it was some time before, with the velocities that it has.
+/// Moves a motion back in time with its present velocities.
 void go_back(double time, dynamics::BodyMotion& motion) {
   spatial::Pose& X = motion.frame.X_WB;
   X.p -= time * motion.frame.v;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What impacts lose. Theory: docs/theory/23-impacts.md §2.
+// Energy lost in impacts. Theory: docs/theory/23-impacts.md §2.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -12,8 +12,8 @@ using linalg::Vector;
 
 namespace {
 
-// Energy that impulses give bodies, by what they take from them: 1 where all of it is returned.
-// What accelerates bodies between the instant of the impact and the end of the step, and
+// Energy that impulses give the bodies, divided by what they take from them: 1 if all of it is
+// returned. What accelerates bodies between the instant of the impact and the end of the step, and
 // restitution that depends on friction, may make it a little more; wedges made it thousands of
 // times as much.
 constexpr double kMostGiven = 1.25;
@@ -46,8 +46,8 @@ void Impacts::lose(const Vector& P, const Vector& jump,
     const double rate_end = rate_of(push(k).row, end), rate_start = rate_of(push(k).row, start_);
     const double met = rate_end + touch.rest / scheme_.h * (rate_start - rate_end);
     const double loss = -P[i] * (met + 0.5 * jump[i]);
-    // What strikes gives nothing back: less than none is what lifts bodies out of an end that they
-    // were in before, for the balance to show.
+    // What strikes returns no energy: a negative loss comes from lifting bodies out of an end that
+    // they were in before, and is left for the balance to show.
     const bool gives_nothing = !is_slip && touch.strikes && !touch.is_wedged;
     lose(load, gives_nothing ? std::max(0.0, loss) : loss);
   }
@@ -60,8 +60,8 @@ double Impacts::loss_on_mesh(const Touch& touch, double P, double jump) const {
 
 double Impacts::loss_of_slip(const Slip& slip, double P, double jump) const {
   const double after = slip.speed + jump;
-  // Where it holds, what it does on the motion that weight brings within the rest of the step is
-  // no loss; where it slides, all of it rubs over the way between.
+  // If friction holds, its work on the motion due to weight within the rest of the step is no loss;
+  // if it slides, all of its work on the way is.
   const bool holds =
       !touches_[slip.touch].is_of_step && std::abs(after) <= Slip::kStopped * std::abs(slip.speed);
   const double share =
@@ -72,7 +72,7 @@ double Impacts::loss_of_slip(const Slip& slip, double P, double jump) const {
 std::vector<Eigen::Index> Impacts::gaining(const Vector& P, const Vector& jump,
                                            const std::vector<dynamics::BodyMotion>& end) const {
   struct Exchange {
-    double taken = 0, given = 0;  // what stops the bodies, and what moves them then [J]
+    double taken = 0, given = 0;  // by stopping the bodies, and by moving them afterwards [J]
     bool has_mesh = false;
   };
   std::map<std::size_t, Exchange> exchanges;  // by island

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What impulses of impacts do to the bodies.
+// Effect of impulses on the bodies.
 #include <algorithm>
 #include <cmath>
 
@@ -10,9 +10,9 @@ namespace buckens::stepping {
 using linalg::Vector;
 
 namespace {
-// A body that is struck leaves with twice the speed of what strikes it at most, and may be struck
-// from two sides at different instants of a step: farther than so many times what the fastest goes
-// in a step nothing is moved by blows.
+// A struck body leaves with at most twice the speed of what strikes it, and may be struck from two
+// sides at different instants of a step: impacts move nothing further than this many times the
+// distance that the fastest body travels in a step.
 constexpr double kMostOfStep = 4.0;
 }  // namespace
 
@@ -65,7 +65,7 @@ void Impacts::move_bodies(const Vector& P) {
     if (!is_slip) {
       const double weight = p * std::abs(touch.target);
       strength += weight;
-      // Impulses of friction that hold to the end of the step have its accelerations in them.
+      // Friction impulses that hold to the end of the step already include its accelerations.
       const bool has_all = touch.stays && !laws_[touch.law].frictions.empty();
       if (!has_all) rest_ += weight * touch.rest;
     }
@@ -73,7 +73,7 @@ void Impacts::move_bodies(const Vector& P) {
     for (const PushedBody& moved : own.bodies) {
       BodyJump& jump = jumps_[moved.body];
       jump.velocity += p * moved.u;
-      // What no joint holds moves on by itself; else joints would open between it and meshes.
+      // Bodies that no joint holds move on by themselves; for others, joints to meshes would open.
       const bool goes_by_itself = touch.is_of_step && is_free_[moved.body] != 0;
       jump.shift += (p * (goes_by_itself ? touch.since : touch.rest)) * moved.u;
       jump.impulse += p * moved.load;

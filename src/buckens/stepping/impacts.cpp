@@ -22,10 +22,10 @@ using linalg::Vector;
 
 namespace {
 
-// A rate at the instant of the impact that differs from that at the end of the step by more than
-// this share is that of another place.
+// If a rate at the instant of the impact differs from that at the end of the step by more than this
+// fraction, it is that of another contact point.
 constexpr double kSamePlace = 0.1;
-// Overlaps by this share of the size of positions, or [rad], are rounding.
+// Overlaps of this fraction of the size of positions, or [rad], are rounding.
 constexpr double kNoGap = 1e-14;
 
 }  // namespace
@@ -110,9 +110,9 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
     is_struck = look(k, around, motions, t) || is_struck;
   if (!is_struck) return false;
   find_islands();
-  // What the blow presses together, as a stack on the floor, is hit at the same instant.
+  // What the impact presses together, such as a stack on the floor, is hit at the same instant.
   for (Touch& touch : touches_) {
-    // What it holds on a mesh goes on from there as well.
+    // What it holds on a mesh continues from there as well.
     const bool goes_on = touch.stays && !touch.strikes && moves_mesh(laws_[touch.law]);
     if (goes_on) touch.rest = strongest_near(touch).rest;
     if (touch.stays || touch.approach > 0.0 || touch.is_of_step) continue;
@@ -130,7 +130,8 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
       const auto is_other = [&](double known) {
         return std::abs(rate - known) > kSamePlace * std::max(most, std::abs(rate));
       };
-      // Round bodies that graze each other have other rates at both instants, in one place.
+      // Round bodies that graze each other have different rates at both instants, at the same
+      // contact point.
       const bool is_met = touch.strikes && !touch.stays && !is_other(-touch.approach);
       touch.is_elsewhere = is_other(touch.rate) && !is_met;
     });
@@ -155,7 +156,7 @@ bool Impacts::strike(const std::vector<dynamics::BodyMotion>& then,
     Vector P = solve(D, &jammed);
     if (!jammed.empty()) {
       if (stop_bouncing(jammed)) return false;
-      P = solve(D, nullptr);  // says what cannot be solved
+      P = solve(D, nullptr);  // throws, saying what cannot be solved
     }
     const Vector jump = D * P;
     if (stop_bouncing(gaining(P, jump, then))) return false;
@@ -252,7 +253,7 @@ bool Impacts::look(std::size_t index, const dynamics::Circumstances& around,
   if (is_closed) contact.regime = sight.stand.regime;
   const double sign = contact.sign;
   if (!is_closed && !(contact.gap < 0.0)) return false;
-  // What lies there already is out of place by rounding, and approaches by as little.
+  // What already lies there is displaced by rounding, and approaches as slowly.
   const bool is_length =
       !model_.coordinates[static_cast<std::size_t>(load.coordinate)].law.is_angle();
   const double rounding = kNoGap * (is_length ? length_ : 1.0);
@@ -271,8 +272,8 @@ bool Impacts::look(std::size_t index, const dynamics::Circumstances& around,
     const double e = restitution(law, -touch.rate);
     if (e > 0.0 && moves_mesh(law)) {
       const double rate_start = sign * law.start.rate;
-      // What has turned round within the step comes back as fast as it left at most: that takes no
-      // work, and it has moved no way.
+      // What has reversed within the step comes back as fast as it left at most: this takes no
+      // work, because its net displacement is zero.
       if (rate_start >= 0.0 && touch.rate >= -rate_start) return false;
       make_impulse_of_step(touch, rate_start < 0.0 ? e : 1.0, rate_start);
     }
@@ -309,7 +310,7 @@ void Impacts::set_approach(Touch& touch, const Law& law, const loads::Coordinate
                            double sign, double gap) const {
   const double rate_end = sign * end.rate;
   GapOfStep way{gap - sign * end.change, sign * law.start.rate, gap, rate_end, scheme_.h};
-  // Of another place than at the end: it comes as fast as it is there.
+  // At another contact point than at the end: it arrives with the rate that it has there.
   if (way.begins_elsewhere()) {
     way.start = gap - scheme_.h * rate_end;
     way.rate_start = rate_end;
@@ -320,7 +321,7 @@ void Impacts::set_approach(Touch& touch, const Law& law, const loads::Coordinate
   const double e = restitution(law, touch.approach);
   touch.met = -touch.approach;
   touch.target = (1.0 + e) * touch.approach;
-  // What returns within the step that it left in, or would not leave at all, stays.
+  // What returns within the step in which it left, or would not leave at all, stays.
   const bool has_just_left = way.rate_start > 0.0;
   touch.stays = e == 0.0 || has_just_left || rate_end + touch.target <= 0.0;
   if (!touch.stays) return;
@@ -403,14 +404,14 @@ void Impacts::land(const Vector& P, const Vector& jump) {
   for (std::size_t k = 0; k < touches_.size(); ++k) {
     const Touch& touch = touches_[k];
     const auto i = static_cast<Eigen::Index>(k);
-    // What has turned round within the step does not approach at its start.
+    // What has reversed within the step does not approach at its start.
     if (touch.approach > 0.0 || (touch.is_of_step && P[i] > 0.0)) {
       ++count_;
       const Law& law = laws_[touch.law];
       const bool is_jammed = touch.strikes && !law.bounces;
       if (is_jammed && law.law->restitution(touch.approach, signals_) > 0.0) ++jammed_;
     }
-    // Driven off by others, or left with the share of its speed: no longer held.
+    // Driven off by others, or leaving with restitution: no longer held.
     const bool leaves = touch.rate + jump[i] > std::max(1e-9 * size, weight_returns(touch));
     const bool is_held = touch.stays && !leaves;
     const int rigid_row = model_.loads[laws_[touch.law].load].rigid_row;

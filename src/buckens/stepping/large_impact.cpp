@@ -21,18 +21,18 @@ namespace {
 
 constexpr int kRounds = 20;  // of Newton's method and sweeps
 constexpr int kNewtonsInRound = 15;
-constexpr int kIdleNewtons = 3;  // in a row that gain nothing
+constexpr int kIdleNewtons = 3;  // in a row without progress
 constexpr int kSweepsInRound = 50;
 constexpr int kLastSweeps = 5000;
-constexpr int kMostJams = 3;  // rounds in which a place jams by itself
-// Residuals by this share of what impulses do are rounding, and those that may be where they fall
-// no further.
+constexpr int kMostJams = 3;  // rounds in which a place jams on its own
+// Residuals that are rounding, as a fraction of the effect of impulses; and those that may be
+// rounding if they fall no further.
 constexpr double kClosed = 1e-13;
 constexpr double kNearlyClosed = 1e-10;
-// Share of its own answer that a row gives in Newton's matrix: what holds the same leaves it
-// regular, and residuals are exact.
+// Fraction of its own response by which a row yields in Newton's matrix: rows that hold the same
+// thing leave it regular, and residuals are exact.
 constexpr double kGives = 1e-9;
-// Answers by this share of the largest one.
+// Response, as a fraction of the largest one.
 constexpr double kAnswersNothing = 1e-12;
 
 using RowsOfAnswers = Eigen::SparseMatrix<double, Eigen::RowMajor>;
@@ -80,15 +80,15 @@ class ManyPlaces {
   }
 
  private:
-  /// What impulses do to the rates at most.
+  /// Largest effect of impulses on the rates.
   double size_of(const Vector& P) const {
     return std::max((sizes_ * P.cwiseAbs()).maxCoeff(), b_.cwiseAbs().maxCoeff());
   }
-  /// Whether impulses do not just cancel each other, as where friction jams.
+  /// Whether impulses do not merely cancel each other, as when friction jams.
   bool is_good(const Vector& P) const {
     return !rubs_ || size_of(P) <= kMostCancelled * b_.cwiseAbs().maxCoeff();
   }
-  /// What is open of the equations [m/s].
+  /// Largest residual of the equations [m/s].
   double open(const Vector& P) {
     form(P);
     return F_.cwiseAbs().maxCoeff();

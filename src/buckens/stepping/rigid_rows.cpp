@@ -10,11 +10,11 @@
 namespace buckens::stepping {
 
 namespace {
-// Rigid rows with less of their own than this share hold what others hold.
+// Rigid rows with less independence than this fraction hold what others hold.
 constexpr double kTheSame = 1e-11;
-// Share of damping in what resists within a step, beside stiffness, from which on it turns rates
-// round. Of bars on the floor those with 0.29 and more gain by it; an undamped one, which stiffness
-// alone turns round, left twice as much energy open.
+// Share of damping in what resists within a step, compared with stiffness, above which it reverses
+// rates. Of bars on the floor, those with 0.29 and more gain by this; an undamped one, whose rates
+// stiffness alone reverses, left twice as much energy open.
 constexpr double kTurns = 0.25;
 
 // What a row that a mesh takes part in holds: an end, which only pushes, or a direction of friction
@@ -70,7 +70,7 @@ void RigidRows::start(const model::RowMemory& memory, double undone) {
   for (std::size_t k = 0; k < stands_.size(); ++k) {
     stands_[k] = {static_cast<int>(memory.laws[first_states_[k]]),
                   memory.laws[first_states_[k] + 1]};
-    // What an event has switched off holds nothing.
+    // A load that an event has switched off holds nothing.
     if (memory.is_off(loads_[k])) stands_[k] = {};
     const bool takes_back = is_on_mesh_[k] != kNothing && stands_[k].regime != 0;
     released_[k] = takes_back ? -undone * stands_[k].force : 0.0;
@@ -85,7 +85,7 @@ bool RigidRows::move(const std::vector<loads::RigidRow>& rows,
   for (std::size_t k = 0; k < stands_.size(); ++k) {
     if (!decided_elsewhere.empty() && decided_elsewhere[k] != 0) continue;
     loads::RowStand next = rows[k].next;
-    // A row on a mesh lets go if it has pulled over the step, not if it pulls at its end.
+    // A row on a mesh lets go if it has pulled over the step, not if it pulls only at its end.
     const bool is_held = stands_[k].regime != 0 && stands_[k].regime == regimes_at_start_[k];
     if (is_held && is_on_mesh_[k] == kEnd && turns_at_end(stands_[k].force, released_[k])) {
       next = next.regime == 0 ? stands_[k] : open(k);
@@ -110,7 +110,7 @@ bool RigidRows::let_go(const std::vector<loads::RigidRow>& rows) {
 
 void RigidRows::let_go(int row) {
   stands_[static_cast<std::size_t>(row)] = {};
-  // Its force was along the row of another place.
+  // Its force acted along the row of another contact point.
   released_[static_cast<std::size_t>(row)] = 0.0;
 }
 
@@ -141,7 +141,7 @@ bool RigidRows::have_changed() const {
     // What pulls at the end lets go there.
     const bool is_end = stands_[k].regime != 0 && is_on_mesh_[k] == kEnd;
     if (is_end && turns_at_end(stands_[k].force, released_[k])) return true;
-    // A direction of sliding that the step has held is no other regime.
+    // A direction of sliding that the step has held counts as the same regime.
     if (std::min(stands_[k].regime, loads::ContactFriction::kHeldDirection - 1) !=
         regimes_at_start_[k]) {
       return true;

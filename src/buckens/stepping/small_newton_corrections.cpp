@@ -10,8 +10,8 @@ namespace buckens::stepping {
 using linalg::Vector;
 
 namespace {
-// The square of a correction by the model's length is what it opens itself. Beyond this share of
-// what it is to close, iterations do not come to an end.
+// A correction itself opens gaps of its square divided by the model's length. If this exceeds the
+// following fraction of the gaps to be closed, iterations do not converge.
 constexpr double kOpensItself = 0.1;
 }  // namespace
 

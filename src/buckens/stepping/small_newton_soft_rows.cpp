@@ -11,7 +11,7 @@ namespace buckens::stepping {
 
 namespace {
 
-constexpr int kMostMoves = 20;  // of rigid rows from one part of their set to another in a step
+constexpr int kMostMoves = 20;  // iterations of a step in which rigid rows change their stands
 // Gaps by this share of the change of an iteration do not close by it.
 constexpr double kOpenGap = 0.1;
 // Share of its own force that a row of a mix keeps in the tangent. The matrix of multipliers loses
@@ -158,7 +158,7 @@ const loads::RigidRow* SmallNewton::closed_row(std::size_t soft) const {
 
 bool SmallNewton::move_rigid_rows(double t, const StepReport& report) {
   if (rigid_.empty() || !may_move(t, report)) return false;
-  // Friction that is out of its cone presses others off their stops that are pressed on in the end.
+  // Friction outside its cone would open other stops that remain pressed in the end.
   const bool are_held = cones_.empty() || cones_.hold(forces_.rigid, rigid_);
   if (!are_held && decide_cones(t, report)) return true;
   return rigid_.move(forces_.rigid, cones_.rows());

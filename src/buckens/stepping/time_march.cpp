@@ -55,7 +55,7 @@ StepReport TimeMarch::advance(const model::State& before, model::State& after,
   if (error_ && !has_begun_) error_->start(before);
   has_begun_ = true;
   first_failure_.clear();
-  // Of rigid rows, where no shorter step helps.
+  // For rigid rows, if no shorter step helps.
   bool accepts_last_stands = false, decides_first = false;
   rejected_ratio_ = 0;
   spread_ = std::max(next_step(), kFade * spread_);
