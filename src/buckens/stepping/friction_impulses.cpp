@@ -208,8 +208,7 @@ class GroupSolver {
              (places_.settle(from_start(), 0.5, kMostHalfSweeps) && is_good(P)) ||
              (places_.agree(from_start()) && is_good(P)) ||
              (places_.strike_in_turn(P) && is_good(P));
-    } catch (
-        const StepFailure&) {  // one place jams on its own, with the present impulses of others
+    } catch (const StepFailure&) {  // one place jams on its own, given the impulses of others
       return false;
     }
   }
