@@ -188,6 +188,15 @@ def test_another_end(buckens, tmp_path):
     assert (tmp_path / "again/sensors.csv").read_bytes() == (tmp_path / "out/sensors.csv").read_bytes()
 
 
+def test_another_end_whose_count_of_steps_rounds(buckens, tmp_path):
+    # 0.03 / 600 is not 5e-5 in binary digits, 0.02 / 400 is.
+    (tmp_path / "model.yaml").write_text(model(SLIDER_CRANK).replace("step: 0.2 ms", "step: 0.05 ms"))
+    buckens("run", "model.yaml", "-q", "-o", "whole", "--set", "simulation.duration=30 ms").must(0)
+    buckens("run", "model.yaml", "-q", "-o", "out", "--set", "simulation.duration=20 ms").must(0)
+    buckens("run", "--continue", "out", "--until", 0.03, "-q").must(0)
+    assert (tmp_path / "whole/sensors.csv").read_bytes() == (tmp_path / "out/sensors.csv").read_bytes()
+
+
 def test_times_of_records_stay_where_the_model_gives_none(buckens, tmp_path):
     (tmp_path / "model.yaml").write_text(model(SLIDER_CRANK).replace("  every: 0.7 ms\n", "").replace(
         "step: 0.2 ms", "step: 0.07 ms"))

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -25,11 +26,19 @@ constexpr double kFade = 0.5;
 constexpr int kMostAtOnce = 5;
 
 StepSettings with_longest_step(StepSettings settings, const MarchSettings& march) {
-  settings.step = (march.duration - march.start) / static_cast<double>(march.longest_steps);
+  settings.step = longest_step_of(march);
   return settings;
 }
 
 }  // namespace
+
+double longest_step_of(const MarchSettings& march) {
+  const double span = march.duration - march.start;
+  const auto count = static_cast<double>(march.longest_steps);
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * march.duration;
+  const bool is_divided = std::abs(count * march.given_step - span) <= rounding;
+  return is_divided ? march.given_step : span / count;
+}
 
 TimeMarch::TimeMarch(const model::Model& model, StepSettings settings, std::vector<int> rows_in_use,
                      const MarchSettings& march)

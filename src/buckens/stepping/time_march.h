@@ -18,7 +18,12 @@ struct MarchSettings {
   double start = 0;                         ///< instant of the first step's beginning [s]
   long longest_steps = 1;                   ///< number of longest steps from start to end
   std::optional<ErrorTolerance> tolerance;  ///< controls the step; none: the longest throughout
+  double given_step = 0;  ///< keeps its digits if longest_steps of it fill the run [s]
 };
+
+/// The longest step [s]: a given one that divides the run to rounding keeps its digits, as in runs
+/// of other lengths.
+double longest_step_of(const MarchSettings& march);
 
 /// Steps of one length that were accepted.
 struct RungUse {
@@ -51,7 +56,7 @@ class TimeMarch {
 
   using StepQuestion = std::function<bool(const model::State& before, const model::State& after)>;
 
-  /// @param settings `step` is replaced by (duration − start) / longest_steps
+  /// @param settings `step` is replaced by given_step or (duration − start) / longest_steps
   TimeMarch(const model::Model& model, StepSettings settings, std::vector<int> rows_in_use,
             const MarchSettings& march);
 
@@ -70,6 +75,8 @@ class TimeMarch {
 
   bool is_controlled() const { return error_.has_value(); }
   bool is_done() const { return ticks_ >= end_; }
+  /// Where it stands [s].
+  double time() const;
   double longest_step() const { return ladder_.step(0); }
   /// Length of the step that advance() will try next [s].
   double next_step() const { return ladder_.step(k_); }
@@ -89,7 +96,6 @@ class TimeMarch {
  private:
   int shortest() const { return error_ ? kShortestRung : kMostHalvings; }
   bool fits(int k) const;
-  double time() const;
   bool is_admitted(const model::State& after, const Scheme& scheme);
   void shorten(int halvings);
   void choose_next();

@@ -42,7 +42,7 @@ std::string matrix_content(model::ModelDescription description) {
     const auto march = analysis::march_settings(*description.simulation);
     hash.add(static_cast<std::uint64_t>(settings.method));
     add_number(hash, settings.method_parameter());
-    add_number(hash, march.duration / static_cast<double>(march.longest_steps));
+    add_number(hash, stepping::longest_step_of(march));
     hash.add(static_cast<std::uint64_t>(march.tolerance.has_value()));
   }
   run_store::BasisFiles bases(directory, run_store::BasisFiles::Others::leave);

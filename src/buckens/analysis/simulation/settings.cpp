@@ -50,6 +50,7 @@ stepping::MarchSettings march_settings(const model::SimulationSpec& spec, double
   if (longest > 0.0) {
     const double steps = std::ceil((spec.duration - start) / longest - 1e-9);
     march.longest_steps = std::max(1L, std::lround(steps));
+    march.given_step = longest;
   }
   if (spec.has_step_control()) {
     march.tolerance.emplace();

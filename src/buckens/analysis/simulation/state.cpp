@@ -305,6 +305,8 @@ void SimulationRun::restore(const base::SavedValues& saved, Leeway leeway) {
     begin_march(state().t);
   } else {
     march_->visit_saved(visit.inside("march"));
+    // The end of the run before was that of a step, but for rounding.
+    if (!march_->is_done()) prepared_->state.t = march_->time();
   }
   if (steps_ > 0 && march_start_ > 0.0) {
     steps_ = steps_taken_ + std::lround((spec_.duration - state().t) / march_->longest_step());
