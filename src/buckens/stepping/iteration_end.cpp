@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/stepping/iteration_end.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace buckens::stepping {
@@ -10,6 +11,8 @@ namespace {
 // Convergence is linear with the frozen matrix of the step: what the next iteration would change is
 // known from the last two. It has to be this much smaller than what the tolerance admits.
 constexpr double kForeseen = 0.01;
+// Of a change that takes back what went astray, so much stays by rounding.
+constexpr double kLeftOfChange = 1e-15;
 // What rounding of positions leaves open, relative to the model's length, or to the distance from
 // the origin where that is more.
 constexpr double kRounding = 1e-15;
@@ -32,7 +35,8 @@ bool IterationEnd::is_settled(const Change& change, const Change& before, double
   // Rounding of positions bounds what any iteration can reach, or a change that no longer falls.
   const double enough = tolerance_ * change.motion;
   if (change.size <= enough + kRounding * rounding_length_) return true;
-  if (contraction_ < kSlow && contraction_ * change.size <= kForeseen * enough) return true;
+  const double next = std::max(contraction_, kLeftOfChange) * change.size;
+  if (contraction_ < kSlow && next <= kForeseen * enough) return true;
   double rounding = kStalled * length_ + kStalledFarAway * leverage_ * rounding_length_;
   if (pivots > 0.0 && pivots < kWeaklyHeld) rounding /= std::sqrt(pivots);
   return before.size > 0.0 && change.size > kSlow * before.size && change.size <= rounding;

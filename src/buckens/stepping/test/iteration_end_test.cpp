@@ -72,6 +72,13 @@ TEST(IterationEnd, GoesOnWhileChangesFall) {
   EXPECT_FALSE(end_with(0.07).is_settled(kChange, {}, 0.14));
 }
 
+TEST(IterationEnd, ForeseesNothingBelowTheRoundingOfAChange) {
+  // A heap of balls whose rows had gone astray and let go came back so: 2 m are left of 2e16 m.
+  IterationEnd end = end_with(0.07);
+  EXPECT_FALSE(end.is_settled({1.84e16, 2.04}, {7.74e80, 1.84e16}, 0.0));
+  EXPECT_TRUE(end.is_settled({1e-13, 0.01}, {2.04, 0.01}, 0.0));
+}
+
 TEST(ModelScales, ShortestLeverIsThatOfTheShortestLink) {
   // (ρ² + z²)/z of a rod of the length a with ρ² = a²/12 and z = a/2 is 2a/3; the rods of the tests
   // have a hundredth of that inertia along them, which adds half of it to ρ².
