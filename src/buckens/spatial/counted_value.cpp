@@ -27,7 +27,7 @@ void require_countable(const CountedValue& before, const CountedValue& after, do
   if (is_countable(before, after, turn)) return;
   throw StepTooLong(fmt::format(
       "{} goes from {:.4g} to {:.4g} {} within one step of {:.3g} s, so that one turn more or less "
-      "could be meant; use a smaller step",
+      "could be meant; use a smaller step than that",
       what, before.rate, after.rate, turn == kTurn ? "rad/s" : "m/s", after.t - before.t));
 }
 

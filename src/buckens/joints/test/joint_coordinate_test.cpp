@@ -68,7 +68,7 @@ TEST(JointCoordinate, SaysWhereTurnsCannotBeCounted) {
   } catch (const StepTooLong& error) {
     EXPECT_STREQ(error.what(),
                  "joint \"pin\" goes from 2 to 500 rad/s within one step of 0.1 s, so that one "
-                 "turn more or less could be meant; use a smaller step");
+                 "turn more or less could be meant; use a smaller step than that");
   }
 }
 
