@@ -285,6 +285,30 @@ simulation: {duration: 5 s, step: 1 ms}
     buckens("run", "model.yaml", "-o", "out").must(4, "model.yaml:9:", "signal \"u\" has grown to", "diverges", "`limits`")
 
 
+@pytest.mark.parametrize("signals, named, others", [
+    ("""  angle: {joint-angle: hinge}
+  u: {transfer-function: {input: "1 - angle", numerator: [1e6], denominator: [1e-3, 1, 0]}}""", "u", ["angle"]),
+    ("""  speed: {joint-speed: hinge}
+  u: 1 + 500*speed""", "u", ["speed"]),
+])
+def test_a_controller_that_diverges_is_named_where_a_step_fails(buckens, tmp_path, signals, named, others):
+    """Long before its states leave all bounds: the joint turns too fast for any step, and only its name was told."""
+    (tmp_path / "model.yaml").write_text(f"""
+buckens: 1
+bodies: {{b: {{rigid: {{mass: 1, com: [0.5, 0, 0], inertia: [0.01, 0.01, 0.01]}}}}}}
+joints: {{hinge: {{revolute: {{between: [ground, b/origin], axis: [0, 1, 0]}}}}}}
+signals:
+{signals}
+loads:
+  motor: {{hinge-motor: {{joint: hinge, torque: "u"}}}}
+  spring: {{hinge-spring: {{joint: hinge, stiffness: 1}}}}
+simulation: {{duration: 5 s, step: 1 ms}}
+""")
+    buckens("run", "model.yaml", "-o", "out").must(
+        4, "model.yaml:7:", f"signal \"{named}\" has grown exponentially", *[f"\"{one}\"" for one in others],
+        "seems to diverge", "`limits`", "then the step at t =", "joint \"hinge\"")
+
+
 def test_an_event_that_chatters_is_named(buckens, tmp_path):
     text = SWITCH.replace("low: \"up - 1.2\"", "low: \"sin(600*t)\"")
     (tmp_path / "model.yaml").write_text(text)

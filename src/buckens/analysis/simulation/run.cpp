@@ -174,15 +174,17 @@ stepping::StepReport SimulationRun::take_step(const model::State& before, model:
         });
     drives_->check(before.t, after.t);
     shafts_->check(before, after);
+    growth_->follow(after.memory.signals);
     // The step closed velocities with the shapes of quasi-static bodies at its start.
     if (has_quasi_static_) project_velocities(built_.model, *metric_, after);
     if (report.must_settle) settle(before, after, report);
     return report;
-  } catch (const NumericalError&) {
+  } catch (const NumericalError& failure) {
     after = before;
     // A law that jumps makes any step fail, and explains more than the failing joint.
     drives_->check(before.t, reach);
     shafts_->check_failed(before);
+    growth_->check_failed(failure);
     throw;
   }
 }

@@ -19,6 +19,7 @@
 #include "buckens/analysis/simulation/run_recording.h"
 #include "buckens/analysis/simulation/run_statistics.h"
 #include "buckens/analysis/simulation/shaft_watch.h"
+#include "buckens/analysis/simulation/signal_growth.h"
 #include "buckens/analysis/simulation/simulation.h"
 #include "buckens/analysis/simulation/step_advice.h"
 #include "buckens/analysis/simulation/step_traffic.h"
@@ -111,6 +112,7 @@ class SimulationRun {
   std::optional<WorkAccount> work_;
   std::optional<DriveLaws> drives_;
   std::optional<ShaftWatch> shafts_;
+  std::optional<SignalGrowth> growth_;
   std::optional<EventWatch> events_;
   std::optional<EventActions> actions_;
   std::optional<RunStatistics> statistics_;

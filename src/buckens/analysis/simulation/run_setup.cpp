@@ -147,6 +147,7 @@ void SimulationRun::set_up() {
   work_->take_jump(prepared_->state);
   drives_.emplace(built_.description);
   shafts_.emplace(built_.model);
+  growth_.emplace(built_.model);
   events_.emplace(built_);
   actions_.emplace(built_, *metric_);
   statistics_.emplace(built_);
