@@ -115,3 +115,95 @@ def test_drives_by_speed_and_acceleration_do_not_drift(sensors, buckens, tmp_pat
     assert out["work"][-1] == pytest.approx(kinetic, rel=1e-3)  # of the order h²
     (tmp_path / "model.yaml").write_text(DRIVES.replace("velocity: \"2*cos(3*t) m/s\"", "velocity: 1, displacement: 2"))
     buckens("check", "model.yaml").must(2, "model.yaml:12:", "exactly one of the keys displacement, velocity and acceleration")
+
+
+SLIDER = """
+buckens: 1
+planar: xy
+materials: {steel: {E: 200 GPa, nu: 0.3, rho: 7870 kg/m^3}}
+bodies:
+  wire: {beam: {to: [2, 0, 0], elements: 16, section: {circle: {diameter: 20 mm}}, material: steel}}
+  bead: {rigid: {mass: 0.1 kg, inertia: [0, 0, 1e-3]}, at: {position: [0.4, 0, 0]}}
+joints:
+  JOINTS
+  hole: {slider-on-beam: {between: [wire, bead]}}
+initial: {joints: {START}BODIES}
+simulation: {duration: 1 ms, step: STEP}
+output:
+  every: STEP
+  sensors:
+    way: {joint-coordinate: hole}
+    p: {position: bead}
+    v: {velocity: bead}
+    root: {position: wire/start}
+    root_v: {velocity: wire/start}
+"""
+SWINGS = "root: {revolute: {between: [ground, wire/start]}}"
+
+
+def slider(start, bodies="", joints=SWINGS, step="1 ms"):
+    return (SLIDER.replace("JOINTS", joints).replace("START", start).replace("BODIES", bodies).replace("STEP", step))
+
+
+@pytest.mark.parametrize("frames", ["", ", frames: 4"])
+def test_a_slider_starts_along_its_beam(sensors, frames):
+    """Over nodes and parts, on a beam that swings, too: from its own place and with its own speed there."""
+    text = slider("hole: {displacement: 0.93, velocity: 1.5}, root: {angle: 30 deg, speed: 2}")
+    out = sensors(text.replace("material: steel}}", f"material: steel}}{frames}}}"))
+    s, c, n = 1.33, math.cos(math.pi / 6), 0.5
+    # Assembly closes to 1e-12 of the model's length; rates to rounding of 1e-10.
+    assert out["way.value"][0] == pytest.approx(0.93, abs=1e-11)
+    assert out["way.rate"][0] == pytest.approx(1.5, abs=1e-9)
+    assert (out["p.x"][0], out["p.y"][0]) == pytest.approx((s * c, s * n), abs=1e-11)
+    assert (out["v.x"][0], out["v.y"][0]) == pytest.approx((1.5 * c - 2 * s * n, 1.5 * n + 2 * s * c), abs=1e-9)
+    # To the node at the end of the beam; the speed alone; the place alone.
+    out = sensors(slider("hole: {displacement: 1.6}, root: {angle: 0, speed: 0}"))
+    assert (out["way.value"][0], out["way.rate"][0]) == pytest.approx((1.6, 0), abs=1e-9)
+    out = sensors(slider("hole: {velocity: -0.7}, root: {speed: 0}"))
+    assert (out["way.value"][0], out["way.rate"][0], out["v.x"][0]) == pytest.approx((0, -0.7, -0.7), abs=1e-9)
+
+
+def test_a_beam_starts_under_its_slider(sensors):
+    """The bead rests; the beam is free to slide through."""
+    out = sensors(slider("hole: {displacement: 0.5, velocity: 0.3}",
+                         joints="guide: {prismatic: {between: [ground, wire/start], axis: [1, 0, 0]}}\n"
+                                "  held: {fixed: {between: [{ground: [0.4, 0, 0]}, bead]}}"))
+    assert (out["p.x"][0], out["v.x"][0]) == pytest.approx((0.4, 0), abs=1e-11)
+    assert (out["root.x"][0], out["root_v.x"][0]) == pytest.approx((-0.5, -0.3), abs=1e-9)
+    assert (out["way.value"][0], out["way.rate"][0]) == pytest.approx((0.5, 0.3), abs=1e-9)
+
+
+def bent(by):
+    """y = by x², a cubic that beam elements hold exactly."""
+    shape = f", bodies: {{wire: {{nodal-displacement: {{y: \"{by}*x^2 m\", rz: \"{2 * by}*x rad\"}}}}}}"
+    return slider("hole: {displacement: 0.77, velocity: 1.5}, root: {angle: 0, speed: 2}", shape)
+
+
+def test_a_slider_starts_on_a_beam_that_is_bent_and_moves(sensors):
+    """It is on the line as bent, and its velocity is that of the motion that follows."""
+    out = sensors(bent(0.001))
+    assert out["way.value"][0] == pytest.approx(0.77, abs=1e-11)
+    assert out["way.rate"][0] == pytest.approx(1.5, abs=1e-9)
+    # Along the undeformed beam; nodes do not move back as they turn by angles up to 4 mrad, whose squares are 2e-5.
+    assert (out["p.x"][0], out["p.y"][0]) == pytest.approx((1.17, 0.001 * 1.17**2), abs=2e-6)
+    errors = []
+    for step, h in (("2 us", 2e-6), ("1 us", 1e-6)):
+        text = bent(0.05).replace("1 ms, step: 1 ms", "20 us, step: " + step).replace("every: 1 ms", "every: " + step)
+        out = sensors(text)
+        found = numpy.array([(out[k][1] - out[k][0]) / h for k in ("p.x", "p.y", "way.value")])
+        errors.append(numpy.abs(found - [out["v.x"][0], out["v.y"][0], 1.5]).max())
+    # Half the acceleration times the step: a beam that is bent by 0.2 m springs back with thousands of m/s².
+    assert errors[0] / errors[1] == pytest.approx(2, rel=0.1)
+    assert errors[1] < 0.01
+
+
+@pytest.mark.parametrize("law, start, words", [
+    ("", "hole: {displacement: 1.7}", ["joint \"hole\" would start 0.1 m beyond the end of its beam of 2 m", "from -0.4 to 1.6 m"]),
+    ("", "hole: {displacement: -0.5}", ["0.1 m beyond the start"]),
+    (", velocity: 2 m/s", "hole: {displacement: 0.5}", ["\"hole\" is a drive"]),
+    ("", "hole: {angle: 1}", ["\"hole\" is a slider-on-beam", "no angle"]),
+])
+def test_sliders_that_cannot_start_there_are_refused(buckens, tmp_path, law, start, words):
+    text = slider(start).replace("[wire, bead]", "[wire, bead]" + law)
+    (tmp_path / "model.yaml").write_text(text)
+    buckens("check", "model.yaml").must(2, "model.yaml:11:", *words)

@@ -38,6 +38,8 @@ class Travel {
   double rate() const;
   /// The same for a law on this coordinate. @param coordinate index into Model::coordinates
   loads::CoordinateMotion coordinate(std::size_t coordinate, const model::RowMemory* memory) const;
+  /// Derivative of the displacement by one of the slider against the beam.
+  Eigen::Vector3d along() const { return at_.tangent / at_.tangent.squaredNorm(); }
   /// What the multipliers do to the slider.
   spatial::Wrench reaction(double t, const linalg::Vector& lambda) const;
   const body::MarkerKinematics& slider() const { return slider_; }
@@ -64,9 +66,6 @@ class Travel {
 
  private:
   const model::MarkerId& node(std::size_t k) const { return joint_.track->nodes[k]; }
-  /// Derivative of s by a displacement of the slider against the beam.
-  Eigen::Vector3d along() const { return at_.tangent / at_.tangent.squaredNorm(); }
-
   /// States of the row along the beam, behind those of the place; may be null.
   const double* drive() const { return states_ == nullptr ? nullptr : states_ + 2; }
 

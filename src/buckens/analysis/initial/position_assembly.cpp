@@ -193,7 +193,7 @@ class PositionClosure {
   void evaluate() {
     const auto motions = dynamics::motions_of(model_, state_);
     dynamics::evaluate_constraints(model_, motions, state_.t, &state_.memory, constraints_);
-    starts_.append(motions, share_, constraints_);
+    starts_.append(motions, share_, state_.memory, constraints_);
   }
   /// Moves as far as the gaps become smaller; not at all if they do not.
   bool improve(const LeastMotion& motion, double residual) {
@@ -259,7 +259,7 @@ double project_velocities(const model::Model& model, const dynamics::MassMetric&
   const auto evaluate = [&] {
     const auto motions = dynamics::motions_of(model, state);
     dynamics::evaluate_constraints(model, motions, state.t, &state.memory, constraints);
-    held.append(motions, 1.0, constraints);
+    held.append(motions, 1.0, state.memory, constraints);
   };
   std::vector<Eigen::Matrix3d> J;
   for (const body::Body& body : model.bodies) J.push_back(body.J0);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "buckens/analysis/simulation/turn.h"
+#include "buckens/dynamics/travel.h"
 
 namespace buckens::analysis {
 
@@ -34,8 +35,17 @@ bool StartRows::is_angle(const model::StartCoordinate& start) const {
 }
 
 StartRows::Seen StartRows::look(const model::StartCoordinate& start,
-                                const std::vector<dynamics::BodyMotion>& motions) const {
+                                const std::vector<dynamics::BodyMotion>& motions,
+                                const model::RowMemory* memory) const {
   const model::Coordinate& own = model_.coordinates[static_cast<std::size_t>(start.coordinate)];
+  if (const model::Joint* slider = dynamics::slider_of(model_, own)) {
+    // At the nearest point changes of s do not change g: its own derivative is the row of a drive
+    // along the beam.
+    const dynamics::Travel travel(model_, *slider, motions, memory);
+    Seen out{travel.displacement(), travel.rate(), {}};
+    travel.derive({0.0, 0.0, travel.along()}, slider->first_row, out.row);
+    return out;
+  }
   const auto first = dynamics::evaluate_marker(model_, own.first, motions);
   const auto second = dynamics::evaluate_marker(model_, own.second, motions);
   const spatial::PairRow J = own.law.derivatives(first.motion, second.motion);
@@ -55,7 +65,7 @@ int StartRows::stages() const {
 }
 
 void StartRows::append(const std::vector<dynamics::BodyMotion>& motions, double share,
-                       dynamics::Constraints& out) const {
+                       const model::RowMemory& memory, dynamics::Constraints& out) const {
   const Eigen::Index before = out.g.size();
   const auto count = static_cast<Eigen::Index>(starts_.size());
   for (linalg::Vector* v : {&out.g, &out.g_dot, &out.g_t}) {
@@ -63,7 +73,7 @@ void StartRows::append(const std::vector<dynamics::BodyMotion>& motions, double 
     v->tail(count).setZero();
   }
   for (std::size_t k = 0; k < starts_.size(); ++k) {
-    const Seen seen = look(starts_[k], motions);
+    const Seen seen = look(starts_[k], motions, &memory);
     const auto row = before + static_cast<Eigen::Index>(k);
     if (held_ == Held::rates) {
       out.g_dot[row] = seen.rate - *starts_[k].rate;

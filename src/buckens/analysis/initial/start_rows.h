@@ -23,8 +23,9 @@ class StartRows {
   /// loop and screws count their turns.
   int stages() const;
   /// Appends the rows. @param share fraction of the way to the values, 0 … 1
+  /// @param memory with which the rows of joints before them were evaluated
   void append(const std::vector<dynamics::BodyMotion>& motions, double share,
-              dynamics::Constraints& out) const;
+              const model::RowMemory& memory, dynamics::Constraints& out) const;
   /// Appends a reference length per row: that of the model for displacements.
   void append_lengths(linalg::Vector& out) const;
 
@@ -38,8 +39,9 @@ class StartRows {
     double value = 0, rate = 0;
     dynamics::SystemRow row;
   };
-  Seen look(const model::StartCoordinate& start,
-            const std::vector<dynamics::BodyMotion>& motions) const;
+  /// @param memory of sliders; null: they are sought along their whole beam
+  Seen look(const model::StartCoordinate& start, const std::vector<dynamics::BodyMotion>& motions,
+            const model::RowMemory* memory = nullptr) const;
   bool is_angle(const model::StartCoordinate& start) const;
   double asked(const model::StartCoordinate& start) const {
     return held_ == Held::values ? *start.value : *start.rate;

@@ -46,6 +46,8 @@ namespace {
 constexpr double kInPlane = 1e-6;
 // Of the mechanism's length: farther from the origin positions would lose more than three digits.
 constexpr double kFarAway = 1000.0;
+// Of a beam's length: the way beyond its ends that counts as rounding.
+constexpr double kRoundingOfBeam = 1e-9;
 
 class Builder {
  public:
@@ -316,6 +318,22 @@ class Builder {
     }
   }
 
+  /// @throws InputError for a slider that would start beside its beam
+  static void require_on_beam(const Track& track, const InitialJointSpec& spec, double value) {
+    const double length = track.shape.length();
+    const double rounding = kRoundingOfBeam * length;
+    const double s = track.placed + value;
+    if (s >= -rounding && s <= length + rounding) return;
+    throw InputError(
+        spec.where,
+        fmt::format(
+            "initial: joint \"{}\" would start {:.6g} m beyond the {} of its beam of {:.6g} "
+            "m, on which it is placed {:.6g} m from the start; give a displacement from "
+            "{:.6g} to {:.6g} m",
+            spec.name, s < 0.0 ? -s : s - length, s < 0.0 ? "start" : "end", length, track.placed,
+            -track.placed, length - track.placed));
+  }
+
   void add_starts(const InitialJointSpec& spec, MarkerFinder& find) {
     for (const base::CoordinateName& name : base::kCoordinateNames) {
       if (spec.key_of(name) == nullptr) continue;
@@ -326,13 +344,10 @@ class Builder {
       }
       const auto owner =
           static_cast<std::size_t>(model_.coordinates[static_cast<std::size_t>(coordinate)].joint);
-      if (model_.joints[owner].track) {
-        throw InputError(
-            spec.where, fmt::format("initial: joint \"{}\" is a slider-on-beam; place its body, or "
-                                    "give the body a velocity",
-                                    spec.name));
-      }
       const auto k = static_cast<std::size_t>(name.which);
+      if (model_.joints[owner].track && spec.values[k]) {
+        require_on_beam(*model_.joints[owner].track, spec, *spec.values[k]);
+      }
       out_->starts.push_back({coordinate, spec.values[k], spec.rates[k], spec.where});
     }
   }

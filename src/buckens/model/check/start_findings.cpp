@@ -82,8 +82,7 @@ Found problem(const InitialJointSpec& spec, const ModelDescription& model) {
     return Finding{"", fmt::format("at least one of the keys {} is needed", fmt::join(keys, ", "))};
   }
   const auto* joint = base::find_named(model.joints, spec.name);
-  if (joint != nullptr && joint->laws().num_given() > 0 &&
-      !std::holds_alternative<joints::SliderOnBeamSpec>(joint->kind)) {
+  if (joint != nullptr && joint->laws().num_given() > 0) {
     return Finding{
         "", fmt::format(
                 "joint \"{}\" is a drive, whose law determines where it starts; change that law",
