@@ -274,12 +274,12 @@ def test_a_controller_that_diverges_is_named(buckens, tmp_path):
 buckens: 1
 planar: xy
 bodies: {arm: {rigid: {mass: 1, inertia: [0, 0, 0.01]}}}
-joints: {hinge: {revolute: {between: [ground, arm]}}}
+joints: {rail: {prismatic: {between: [ground, arm], axis: [1, 0, 0]}}}
 signals:
-  angle: {joint-angle: hinge}
-  error: "0.1 - angle"
+  place: {joint-coordinate: rail}
+  error: "0.1 - place"
   u: {integral: {input: "60*u + error"}}
-loads: {motor: {hinge-motor: {joint: hinge, torque: "u"}}}
+loads: {motor: {slide-motor: {joint: rail, force: "u"}}}
 simulation: {duration: 5 s, step: 1 ms}
 """)
     buckens("run", "model.yaml", "-o", "out").must(4, "model.yaml:9:", "signal \"u\" has grown to", "diverges", "`limits`")
