@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "buckens/loads/end_of_set.h"
+
 namespace buckens::loads {
 
 namespace {
@@ -48,7 +50,7 @@ Projected project(const ProjectedForce& law, double rate) {
 int regime_of(const ProjectedForce& law, const Projected& force) {
   if (!law.is_on) return 2;
   if (!force.is_cut) return 10 * force.damper_limit;
-  return force.bounded > 0.0 ? 1 : -1;
+  return EndOfSet::regime(force.bounded, law.cut_damping);
 }
 
 }  // namespace

@@ -1,7 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/loads/rigid_law.h"
 
+#include <algorithm>
+
+#include "buckens/loads/end_of_set.h"
+
 namespace buckens::loads {
+
+namespace {
+
+// Of the rate; a difference of 1e-7 leaves half of the digits.
+constexpr double kShift = 1e-7;
+
+/// How fast the force of an open row falls with its rate: that of a motor at the limit of its
+/// power.
+/// @param row RigidLaw::row of a sight
+template <class Row>
+double fall(const Sight& sight, double given, Row&& row) {
+  Sight faster = sight;
+  faster.coordinate.rate *= 1.0 + kShift;
+  const double change = faster.coordinate.rate - sight.coordinate.rate;
+  return change == 0.0 ? 0.0 : std::max(0.0, (given - row(faster).given) / change);
+}
+
+}  // namespace
 
 Action RigidLaw::evaluate(double /*t*/, const spatial::MarkerMotion& /*first*/,
                           const spatial::MarkerMotion& /*second*/) const {
@@ -20,6 +42,10 @@ Action RigidLaw::respond(const Sight& sight) const {
   out.on_second = {wrench.segment<3>(6).transpose(), wrench.segment<3>(9).transpose()};
   out.along_coordinate = force;
   out.regime = sight.stand.regime;
+  if (is_source() && !out.row.is_closed) {
+    const double slope = fall(sight, out.row.given, [this](const Sight& at) { return row(at); });
+    if (slope > 0.0) out.regime = EndOfSet::regime(out.row.given, slope);
+  }
   out.active_power = force * sight.coordinate.rate;
   if (!is_source()) out.dissipation = -out.active_power;
   return out;
@@ -28,7 +54,11 @@ Action RigidLaw::respond(const Sight& sight) const {
 void RigidLaw::append_tangent(const Sight& sight, std::vector<SoftRow>& rows) const {
   SoftRow out;
   out.J = sight.coordinate.J;
-  out.is_rigid = row(sight).is_closed;
+  const RigidRow now = row(sight);
+  out.is_rigid = now.is_closed;
+  if (is_source() && !now.is_closed) {
+    out.damping = fall(sight, now.given, [this](const Sight& at) { return row(at); });
+  }
   rows.push_back(out);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "buckens/dynamics/travel.h"
+#include "buckens/loads/end_of_set.h"
 
 namespace buckens::stepping {
 
@@ -34,7 +35,8 @@ void HeldLaws::hold_reversed(const std::vector<int>& before,
                              const dynamics::Circumstances& around, dynamics::SoftRows& tangents) {
   held_.clear();
   for (const Law& law : laws_) {
-    if (before[law.regime] * tangents.regimes[law.regime] != -1) continue;
+    const int end = loads::EndOfSet::of(tangents.regimes[law.regime]);
+    if (end * loads::EndOfSet::of(before[law.regime]) != -1) continue;
     const loads::UnlimitedForce force = look(law, motions, t, around);
     if (!(force.stiffness > 0.0 || force.damping > 0.0)) continue;
     const auto row = static_cast<std::size_t>(law.soft);
