@@ -117,7 +117,7 @@ def test_a_reversal_crosses_the_play(sensors):
     turned = met + 2 * (speed - a * met / 2) / a
     assert turned == pytest.approx(0.01, abs=0.1e-3 / 8)
     crossed = turned + math.sqrt(2 * 1e-3 / a)
-    between = (t > turned) & (t < crossed)
+    between = (t > turned + 1e-12) & (t < crossed)  # the event may lie at a record, which shows the force before it
     assert between.sum() > 60
     assert out["mesh.play"][between] == pytest.approx(0.5e-3 - 0.5 * a * (t[between] - turned) ** 2, abs=1e-11)
     assert -0.1 * out["large.rate"][between] == pytest.approx(numpy.full(between.sum(), speed), abs=1e-11)

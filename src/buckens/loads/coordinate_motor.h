@@ -32,6 +32,9 @@ class CoordinateMotor final : public CoordinateLaw {
  public:
   explicit CoordinateMotor(MotorData data) : data_(std::move(data)) {}
 
+  /// The most that it delivers [W], HUGE_VAL without a limit; below zero counts as zero.
+  const base::SignalLaw& power() const { return data_.power; }
+
   bool uses_signals() const override;
   bool is_constant() const override;
 
@@ -91,6 +94,9 @@ struct ServoData {
 class CoordinateServo final : public RateHold {
  public:
   explicit CoordinateServo(ServoData data) : data_(std::move(data)) {}
+
+  /// The most that it delivers [W], HUGE_VAL without a limit; below zero counts as zero.
+  const base::SignalLaw& power() const { return data_.power; }
 
   bool uses_signals() const override;
   bool is_source() const override { return true; }

@@ -60,7 +60,7 @@ double TimeMarch::time() const {
 }
 
 StepReport TimeMarch::advance(const model::State& before, model::State& after,
-                              const StepQuestion& holds_event) {
+                              const StepQuestion& holds_event, const StepQuestion& is_too_long) {
   if (error_ && !has_begun_) error_->start(before);
   has_begun_ = true;
   first_failure_.clear();
@@ -68,6 +68,7 @@ StepReport TimeMarch::advance(const model::State& before, model::State& after,
   bool accepts_last_stands = false, decides_first = false;
   rejected_ratio_ = 0;
   spread_ = std::max(next_step(), kFade * spread_);
+  has_deepened_ = k_ > march_.most_halvings;
   for (;;) {
     Stepper& stepper = ladder_.rung(k_);
     stepper.decide_first(decides_first);
@@ -100,6 +101,11 @@ StepReport TimeMarch::advance(const model::State& before, model::State& after,
       shorten(1);
       continue;
     }
+    if (k_ < kShortestRung && is_too_long && is_too_long(before, after)) {
+      ++k_;
+      has_deepened_ = k_ > march_.most_halvings;
+      continue;
+    }
     ticks_ += kTicks >> k_;
     after.t = time();
     if (error_) has_restarted_ ? error_->start(after) : error_->accept(after);
@@ -116,6 +122,16 @@ void TimeMarch::restart(model::State& state) {
   if (!error_) return;
   error_->start(state);
   has_restarted_ = true;
+}
+
+void TimeMarch::forget_force(model::State& state) {
+  for (model::BodyState& body : state.bodies) {
+    body.w_alg = body.w_dot;
+    body.v_alg = body.v_dot;
+    body.d_alg = body.d_ddot;
+  }
+  state.history = 0;
+  restart(state);
 }
 
 bool TimeMarch::is_admitted(const model::State& after, const Scheme& scheme) {

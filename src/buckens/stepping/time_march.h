@@ -19,6 +19,7 @@ struct MarchSettings {
   long longest_steps = 1;                   ///< number of longest steps from start to end
   std::optional<ErrorTolerance> tolerance;  ///< controls the step; none: the longest throughout
   double given_step = 0;  ///< keeps its digits if longest_steps of it fill the run [s]
+  int most_halvings = 8;  ///< of a step that fails, without tolerance
 };
 
 /// The longest step [s]: a given one that divides the run to rounding keeps its digits, as in runs
@@ -45,13 +46,13 @@ struct MarchReport {
 /// tolerance in proportion to its length: in total they stay within the tolerance. While a step is
 /// shortened for an event, such as the onset of a load, it keeps the share of the step that was
 /// tried first; in the following steps this fades by halves. Without a tolerance k is 0. A step
-/// that does not converge is repeated with half its length, at most kMostHalvings times; afterwards
-/// the march returns to the given step as soon as that fits the grid again. Steps of length h·2⁻ᵏ
-/// start at multiples of it, so times are exact and the end is reached exactly.
+/// that does not converge is repeated with half its length, at most most_halvings times, one that
+/// is too long for what happens in it as often as that takes; afterwards the march returns to the
+/// given step as soon as that fits the grid again. Steps of length h·2⁻ᵏ start at multiples of it,
+/// so times are exact and the end is reached exactly.
 class TimeMarch {
  public:
-  static constexpr int kMostHalvings = 8;   ///< without tolerance
-  static constexpr int kShortestRung = 20;  ///< with one: h/2²⁰
+  static constexpr int kShortestRung = 20;  ///< h/2²⁰
   static constexpr int kEventRung = 4;      ///< on which events are located: h/2⁴
 
   using StepQuestion = std::function<bool(const model::State& before, const model::State& after)>;
@@ -65,13 +66,20 @@ class TimeMarch {
   /// @throws NumericalError naming the joint or body that resists, or whose error stays too large
   /// @param holds_event whether a step contains an event whose instant matters: it is then repeated
   ///        with shorter steps, down to 1/16 of the longest, so that the event is at the end of one
+  /// @param is_too_long whether a step is too long for what happened in it: it is then repeated
+  /// with
+  ///        shorter ones, down to h/2²⁰, which is taken as it is
   StepReport advance(const model::State& before, model::State& after,
-                     const StepQuestion& holds_event = {});
+                     const StepQuestion& holds_event = {}, const StepQuestion& is_too_long = {});
 
   /// To be called where accelerations of `state`, the end of the last step, were found anew: the
   /// method begins with what its steps resolve of them (Stepper::filter_algorithmic), and what the
   /// error estimate knows of the past ends there.
   void restart(model::State& state);
+
+  /// The same where a force has fallen within the last step, so that the method would carry on what
+  /// is no more: it goes on with the accelerations of the end.
+  void forget_force(model::State& state);
 
   bool is_controlled() const { return error_.has_value(); }
   bool is_done() const { return ticks_ >= end_; }
@@ -94,7 +102,7 @@ class TimeMarch {
   void visit_saved(const base::SaveVisit& visit);
 
  private:
-  int shortest() const { return error_ ? kShortestRung : kMostHalvings; }
+  int shortest() const { return error_ || has_deepened_ ? kShortestRung : march_.most_halvings; }
   bool fits(int k) const;
   bool is_admitted(const model::State& after, const Scheme& scheme);
   void shorten(int halvings);
@@ -108,6 +116,7 @@ class TimeMarch {
   ErrorEstimate estimate_;
   bool has_begun_ = false;
   bool has_restarted_ = false;  ///< at the end of the last step
+  bool has_deepened_ = false;   ///< the step being tried is on a rung beyond most_halvings
   int k_ = 0;
   double spread_ = 0;         ///< time whose share of the tolerance the next step may use [s]
   long ticks_ = 0, end_ = 0;  ///< multiples of the shortest step

@@ -168,10 +168,18 @@ stepping::StepReport SimulationRun::take_step(const model::State& before, model:
   const linalg::FactorThreads threads(options_.threads);  // another step size needs another factor
   const double reach = std::min(before.t + march_->longest_step(), spec_.duration);
   try {
-    const stepping::StepReport report =
-        march_->advance(before, after, [this](const model::State& from, const model::State& to) {
-          return holds_action(from, to);
+    bool is_too_long_once = false;
+    const stepping::StepReport report = march_->advance(
+        before, after,
+        [this](const model::State& from, const model::State& to) { return holds_action(from, to); },
+        [&](const model::State& from, const model::State& to) {
+          const bool is_too_long = powers_->exceeds(from, to, march_->longest_step());
+          is_too_long_once = is_too_long_once || is_too_long;
+          return is_too_long;
         });
+    // Errors of what the method carries would grow as the steps become longer again.
+    const bool is_short = !march_->is_controlled() && 1.5 * (after.t - before.t) < reach - before.t;
+    if (is_too_long_once || (powers_->any() && is_short)) march_->forget_force(after);
     drives_->check(before.t, after.t);
     shafts_->check(before, after);
     growth_->follow(after.memory.signals);

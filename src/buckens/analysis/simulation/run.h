@@ -16,6 +16,7 @@
 #include "buckens/analysis/simulation/held_readings.h"
 #include "buckens/analysis/simulation/nodal_views.h"
 #include "buckens/analysis/simulation/output_plan.h"
+#include "buckens/analysis/simulation/power_watch.h"
 #include "buckens/analysis/simulation/run_recording.h"
 #include "buckens/analysis/simulation/run_statistics.h"
 #include "buckens/analysis/simulation/shaft_watch.h"
@@ -113,6 +114,7 @@ class SimulationRun {
   std::optional<DriveLaws> drives_;
   std::optional<ShaftWatch> shafts_;
   std::optional<SignalGrowth> growth_;
+  std::optional<PowerWatch> powers_;
   std::optional<EventWatch> events_;
   std::optional<EventActions> actions_;
   std::optional<RunStatistics> statistics_;

@@ -122,6 +122,7 @@ void SimulationRun::begin_march(double start) {
   march_start_ = start;
   stepping::MarchSettings march = march_settings(spec_, start);
   fit_to_samples(march);
+  if (powers_->any()) march.most_halvings = stepping::TimeMarch::kShortestRung;
   stepping::StepSettings settings = step_settings(spec_);
   settings.threads = options_.threads;
   settings.exchange = options_.exchange;
@@ -139,6 +140,7 @@ void SimulationRun::set_up() {
   summary_.version = kVersion;
   metric_.emplace(built_.model);
   prepared_.emplace(prepare(built_, *metric_, own_.pairs()));
+  powers_.emplace(built_.model, method_of(spec_.method) != stepping::Method::newmark);
   begin_march(0.0);
   observer_.emplace(built_, *metric_, !prepared_->redundant_rows.empty());
   work_.emplace(built_.model, prepared_->state, march_->stepper().scheme().weight == 1.0);
