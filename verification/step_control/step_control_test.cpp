@@ -8,6 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "verification/step_control/walk.h"
+
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/test/example_models.h"
 #include "buckens/loads/applied_load.h"
@@ -25,26 +27,6 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 MarchSettings fixed(double duration, long steps) { return {duration, 0, steps, std::nullopt}; }
-
-MarchSettings controlled(double duration, double tolerance) {
-  return {duration, 0, 20, ErrorTolerance{tolerance, 1e-9}};
-}
-
-/// State at the end; `visit(before, after)` sees every accepted step.
-template <class Visit>
-model::State walk(TimeMarch& march, const test::Start& start, Visit visit) {
-  model::State before;
-  model::State after = start.state;
-  while (!march.is_done()) {
-    std::swap(before, after);
-    march.advance(before, after);
-    visit(before, after);
-  }
-  return after;
-}
-model::State walk(TimeMarch& march, const test::Start& start) {
-  return walk(march, start, [](const model::State&, const model::State&) {});
-}
 
 test::BeamConstants soft_beam() {
   test::BeamConstants beam;

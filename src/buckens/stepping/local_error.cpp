@@ -17,6 +17,9 @@ namespace {
 // The first trial, over the longest step, shows roughly how far a body will deform. A tenth of it
 // is used, so that a wild guess does not make later steps inaccurate.
 constexpr double kTrusted = 0.1;
+// Errors of as many radians of a vibration may add up to the tolerance. That is what a vibration
+// with a tenth of critical damping remembers.
+constexpr double kRadians = 10;
 // Rounding of positions makes differences of 4e-16 of them: no step can be asked for less.
 constexpr double kDifferenceRounding = 4e-15;
 
@@ -97,13 +100,39 @@ LocalError::Difference LocalError::third_difference(double t) const {
           0.0};
 }
 
-double LocalError::deformation_error(std::size_t b, const model::BodyState& end,
-                                     const Difference& f) const {
+LocalError::Difference LocalError::second_difference(double t) const {
+  const double a = past_[0].t;
+  const double h = t - a;
+  // f[a, a, t], a where the motion began
+  if (past_.size() == 1) return {{1.0 / (h * h), -1.0 / (h * h)}, -1.0 / h, 0.0};
+  const double b = past_[1].t;
+  return {{1.0 / (h * (t - b)), 1.0 / (-h * (a - b)), 1.0 / ((b - t) * (b - a))}, 0.0, 0.0};
+}
+
+double LocalError::difference_of(std::size_t b, const model::BodyState& end,
+                                 const Difference& f) const {
   // The first step leaves out d̈: where a load sets in, that of a stiff vibration says nothing.
   Vector sum = f.position[0] * end.d;
-  for (std::size_t k = 0; k < past_.size(); ++k) sum += f.position[k + 1] * past_[k].d[b];
+  for (std::size_t k = 0; k + 1 < f.position.size(); ++k) {
+    sum += f.position[k + 1] * past_[k].d[b];
+  }
   if (f.rate != 0.0) sum += f.rate * start_.d_dot[b];
   return size_of(b, sum);
+}
+
+double LocalError::deformation_ratio(std::size_t b, const model::BodyState& end,
+                                     const Scheme& scheme, double t, double share) const {
+  const double h = t - past_[0].t;
+  const double seen = std::max({largest_[b], expected_[b], size_of(b, end.d)});
+  const double admitted = tolerance_.relative * seen + tolerance_.absolute * model_.length;
+  const double rounding =
+      kDifferenceRounding * std::max(model_.length, end.frame.X_WB.p.cwiseAbs().maxCoeff());
+  const double factor = scheme.error_constant() * h * h;
+  const double in_run =
+      6.0 * factor * h * difference_of(b, end, third_difference(t)) / (share * admitted + rounding);
+  const double in_radians =
+      2.0 * factor * difference_of(b, end, second_difference(t)) / (admitted / kRadians + rounding);
+  return std::min(in_run, in_radians);
 }
 
 ErrorEstimate LocalError::estimate(const model::State& end, const Scheme& scheme, double share) {
@@ -138,13 +167,11 @@ ErrorEstimate LocalError::estimate(const model::State& end, const Scheme& scheme
     count(angle.norm(), share * tolerance_.relative + kDifferenceRounding, b,
           ErrorEstimate::Quantity::rotation);
     if (s.d.size() == 0) continue;
-    const double size = size_of(b, s.d);
-    if (is_first_trial_) expected_[b] = kTrusted * size;
-    const double seen = std::max({largest_[b], expected_[b], size});
-    count(deformation_error(b, s, f),
-          share * (tolerance_.relative * seen + tolerance_.absolute * model_.length) +
-              kDifferenceRounding * seen,
-          b, ErrorEstimate::Quantity::deformation);
+    if (is_first_trial_) expected_[b] = kTrusted * size_of(b, s.d);
+    const double ratio = deformation_ratio(b, s, scheme, end.t, share);
+    if (ratio > out.ratio || std::isnan(ratio)) {
+      out = {ratio, b, ErrorEstimate::Quantity::deformation};
+    }
   }
   is_first_trial_ = false;
   return out;

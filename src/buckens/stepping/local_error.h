@@ -33,6 +33,9 @@ const char* to_string(ErrorEstimate::Quantity quantity);
 /// x‴ is the third divided difference of positions over four instants; where the motion begins, its
 /// rates stand in for missing instants. Accelerations are not used: those of stiff vibrations are
 /// (ωh)² times larger than the motion, and would require steps that resolve every one of them.
+/// Undamped vibrations of a mesh may instead err by a tenth of the tolerance per radian, κ h² x″:
+/// errors that add up over the run would resolve all of its modes. Theory:
+/// docs/theory/05-time-integration.md §10.
 class LocalError {
  public:
   LocalError(const model::Model& model, const ErrorTolerance& tolerance);
@@ -68,9 +71,14 @@ class LocalError {
     double rate = 0, acceleration = 0;
   };
   Difference third_difference(double t) const;
+  Difference second_difference(double t) const;
   Point point_of(const model::State& state) const;
   double size_of(std::size_t b, const linalg::Vector& d) const;
-  double deformation_error(std::size_t b, const model::BodyState& end, const Difference& f) const;
+  /// Size of a divided difference of the deformation [m/sⁿ].
+  double difference_of(std::size_t b, const model::BodyState& end, const Difference& f) const;
+  /// Error of the deformation relative to the admissible one. @param t instant of the end
+  double deformation_ratio(std::size_t b, const model::BodyState& end, const Scheme& scheme,
+                           double t, double share) const;
 
   const model::Model& model_;
   ErrorTolerance tolerance_;
