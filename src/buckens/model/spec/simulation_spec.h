@@ -69,7 +69,8 @@ struct SimulationSpec {
     visit(base::field("tolerance", tolerance,
                       "enables step control: admissible total error of all steps of the run, "
                       "relative to the mechanism's size for the position of a body, in rad for its "
-                      "rotation, relative to the largest so far for its deformation")
+                      "rotation, relative to the largest so far for its deformation (of undamped "
+                      "vibrations, a tenth of it per radian)")
               .positive()
               .like("1e-4")
               .otherwise("1e-3 with `step: auto`, else no step control"));
