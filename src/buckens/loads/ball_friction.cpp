@@ -54,7 +54,15 @@ BallFriction::Stand BallFriction::look(const Sight& sight) const {
     const double share = size > most ? most / size : 1.0;
     out.torque.segment(first, count) = share * trial.segment(first, count);
     out.share = share;
-    if (share == 1.0) return;
+    if (share == 1.0) {
+      // What has turned round within a long step has a damper that makes up for any strain. The
+      // spring has broken away all the same.
+      const double elastic = out.stiffness * out.strain.segment(first, count).norm();
+      if (!(elastic > most)) return;
+      out.strain.segment(first, count) *= most / elastic;
+      for (int k = first; k < first + count; ++k) out.broken[static_cast<std::size_t>(k)] = true;
+      return;
+    }
     for (int k = first; k < first + count; ++k) out.slides[static_cast<std::size_t>(k)] = true;
     out.strain.segment(first, count) =
         out.stiffness > 0.0 ? Vector3d(-out.torque / out.stiffness).segment(first, count).eval()
@@ -89,7 +97,9 @@ Action BallFriction::respond(const Sight& sight) const {
   for (int k = 0; k < 3; ++k) {
     const bool slides = s.slides[static_cast<std::size_t>(k)];
     if (slides) out.regime |= 1 << k;
-    if (!slides) power += s.stiffness * s.strain[k] * s.rate[k];
+    if (!slides && !s.broken[static_cast<std::size_t>(k)]) {
+      power += s.stiffness * s.strain[k] * s.rate[k];
+    }
   }
   out.active_power = power;
   out.dissipation = -power;

@@ -52,6 +52,7 @@ class BallFriction final : public ForceElement, public ReactionFollower {
     Eigen::Vector3d strain;  // after rest has followed [rad]
     Eigen::Vector3d rate;    // [rad/s]
     std::array<bool, 3> slides{};
+    std::array<bool, 3> broken{};  // sticks by its damper: the strain has been cut to the bound
     double stiffness = 0, damping = 0, viscous = 0;
     double bound_per_load = 0;  // relative growth of the bound with N [1/(N m)]
     double share = 1;           // of the trial torque of a ball that its bound admits

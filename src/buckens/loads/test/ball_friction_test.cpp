@@ -2,6 +2,8 @@
 // How the rows of a ball that slides act together, against differences of its torque.
 #include "buckens/loads/ball_friction.h"
 
+#include <cmath>
+#include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -61,6 +63,35 @@ TEST(BallFriction, AnswersAcrossItsDirectionOfSliding) {
 
 TEST(BallFriction, AnswersAllAroundWhileItSticks) {
   expect_mix_of_differences({2e-4, 1e-4, -2e-4}, false);
+}
+
+/// Strained by 50 slips about the first arm, or the first axis, and turning fast enough that the
+/// damper makes up for it but for half of the bound.
+void expect_spring_to_break(const std::optional<BallFriction::Arms>& arms) {
+  const FrictionData data = rubbing_ball();
+  const BallFriction law(data, arms);
+  const double bound = data.static_coefficient * data.radius * 50.0;
+  const double damping = 2.0 * std::sqrt(bound / data.slip * data.inertia);
+  const std::vector<double> states = {1, 0, 0, 0, -50 * data.slip, 0, 0};
+  spatial::MarkerMotion first, second;
+  second.w = {50.5 * bound / damping, 0, 0};
+  Sight sight{0.0, first, second};
+  sight.reaction.force = {0, 30, 40};
+  sight.states = states.data();
+  const Action action = law.respond(sight);
+  // 1e-13: rounding of 5 N m.
+  EXPECT_NEAR(action.on_second.torque.x(), -0.5 * bound, 1e-13);
+  // No more than a spring bent by its slip holds, and no more than the torque takes.
+  EXPECT_NEAR(action.stored_energy, 0.5 * bound * data.slip, 1e-15);
+  EXPECT_NEAR(action.dissipation, 0.5 * bound * second.w.x(), 1e-11);
+  std::vector<double> next(7);
+  law.find_states(sight, next.data());
+  EXPECT_NEAR(next[4], -data.slip, 1e-15);
+}
+
+TEST(BallFriction, SpringBreaksAwayWhereItsDamperMakesUpForTheStrain) {
+  expect_spring_to_break(std::nullopt);
+  expect_spring_to_break(BallFriction::Arms{Vector3d::UnitX(), Vector3d::UnitY()});
 }
 
 }  // namespace
