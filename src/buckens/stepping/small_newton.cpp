@@ -87,11 +87,12 @@ void SmallNewton::use(const dynamics::Circumstances& around) {
   around_.stands = &rigid_.stands();
 }
 
-dynamics::SystemRow SmallNewton::without_rates(dynamics::SystemRow row) const {
+dynamics::SystemRow SmallNewton::with_shapes(dynamics::SystemRow row, double share) const {
+  if (!has_quasi_static_) return row;
   for (std::size_t k = 0; k < row.num_parts(); ++k) {
     dynamics::BodyRow& part = row.part(k);
     if (part.body == model::kGround) continue;
-    if (shares_[static_cast<std::size_t>(part.body)].is_quasi_static()) part.interface.setZero();
+    if (shares_[static_cast<std::size_t>(part.body)].is_quasi_static()) part.interface *= share;
   }
   return row;
 }
