@@ -55,8 +55,7 @@ BallFriction::Stand BallFriction::look(const Sight& sight) const {
     out.torque.segment(first, count) = share * trial.segment(first, count);
     out.share = share;
     if (share == 1.0) {
-      // What has turned round within a long step has a damper that makes up for any strain. The
-      // spring has broken away all the same.
+      // After turning round in a long step its damper may make up for a broken spring.
       const double elastic = out.stiffness * out.strain.segment(first, count).norm();
       if (!(elastic > most)) return;
       out.strain.segment(first, count) *= most / elastic;
