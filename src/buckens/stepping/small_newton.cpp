@@ -88,7 +88,6 @@ void SmallNewton::use(const dynamics::Circumstances& around) {
 }
 
 dynamics::SystemRow SmallNewton::with_shapes(dynamics::SystemRow row, double share) const {
-  if (!has_quasi_static_) return row;
   for (std::size_t k = 0; k < row.num_parts(); ++k) {
     dynamics::BodyRow& part = row.part(k);
     if (part.body == model::kGround) continue;

@@ -55,9 +55,11 @@ void SmallNewton::set_soft_rows(const std::vector<double>& stiffness,
     }
     const double elastic = scheme_.weight * stiffness[k];
     const double k_eff = stiffness_in_step(scheme_, stiffness[k], damping[k]);
-    if (k_eff != 0.0) {
+    if (k_eff != 0.0 && has_quasi_static_) {
       // Shapes without rates strain a spring and leave its damper alone.
       condensation_->set_row(row, with_shapes(soft_.rows[k], elastic / k_eff), soft_.rows[k]);
+    } else if (k_eff != 0.0) {
+      condensation_->set_row(row, soft_.rows[k]);
     } else if (give_to_corrections_[k]) {
       // Its spring still shares in corrections, which act along it.
       condensation_->set_acting_row(row, soft_.rows[k]);
