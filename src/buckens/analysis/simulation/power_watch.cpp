@@ -72,13 +72,13 @@ bool PowerWatch::exceeds(const model::State& before, const model::State& after,
     const auto around = dynamics::circumstances_of(state);
     const auto c = static_cast<std::size_t>(load.coordinate);
     return {dynamics::action_of(model_, k, state.t, around, ends).along_coordinate,
-            dynamics::coordinate_motion(model_, c, memory, motions).rate};
+            dynamics::coordinate_motion(model_, c, state.t, memory, motions).rate};
   };
   return std::any_of(motors_.begin(), motors_.end(), [&](const Motor& motor) {
     const double most = std::max(from_zero(*motor.power, before), from_zero(*motor.power, after));
     const auto c = static_cast<std::size_t>(model_.loads[motor.load].coordinate);
     const double way =
-        joints::difference(before.memory.coordinates[c], after.memory.coordinates[c]);
+        spatial::difference(before.memory.coordinates[c], after.memory.coordinates[c]);
     const End start = look(motor.load, before, first), end = look(motor.load, after, last);
     const Driving part = driving(start, end, after.t - before.t, way);
     const double work = 0.5 * (start.force + end.force) * part.way;
