@@ -13,13 +13,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Places among the states with friction: instant, relative position and rotation, energy held by
-// friction and its rate; then those of each point.
-constexpr int kTime = 0, kPosition = 1, kRotation = 4, kEnergy = 8, kPower = 9, kCommon = 10;
-// Of each point: speed of approach; with friction also the lever from the second marker and the
-// strain, both in axes of the first.
-constexpr int kApproach = 0, kLever = 1, kStrain = 4, kOfPoint = 7;
-
 // Instants closer than this share of the time are one, computed in two ways.
 constexpr double kSameInstant = 1e-13;
 

@@ -45,6 +45,10 @@ class Contact final : public ForceElement {
   bool is_changed() const { return settings_.any(); }
 
   ContactReading read(const Sight& sight) const;
+  /// Strains its points so that their friction holds a load along the surface from the start, as
+  /// far as their bounds go. Each carries in proportion to what presses there.
+  /// @param along what friction does to the second marker, @param states those of start_states()
+  void hold(const Sight& sight, const spatial::Wrench& along, double* states) const;
   /// As the model says: events do not count.
   const ContactData& data() const { return data_; }
   const ContactPair& pair() const { return pair_; }
@@ -72,6 +76,14 @@ class Contact final : public ForceElement {
     std::array<ContactSpot, kSize> spots;
     std::array<Point, kSize> points;
   };
+
+  // Places among the states with friction: instant, relative position and rotation, energy held by
+  // friction and its rate; then those of each point.
+  static constexpr int kTime = 0, kPosition = 1, kRotation = 4, kEnergy = 8, kPower = 9;
+  static constexpr int kCommon = 10;
+  // Of each point: speed of approach; with friction also the lever from the second marker and the
+  // strain, both in axes of the first.
+  static constexpr int kApproach = 0, kLever = 1, kStrain = 4, kOfPoint = 7;
 
   bool has_friction() const { return data_.static_coefficient > 0.0; }
   static Stand stand_of(const Sight& sight);

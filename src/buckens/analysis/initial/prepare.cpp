@@ -9,6 +9,7 @@
 
 #include "buckens/analysis/initial/displacement.h"
 #include "buckens/analysis/initial/friction_start.h"
+#include "buckens/analysis/initial/held_contacts.h"
 #include "buckens/analysis/initial/position_assembly.h"
 #include "buckens/analysis/initial/rigid_rows_start.h"
 #include "buckens/analysis/initial/start_rows.h"
@@ -141,13 +142,15 @@ void keep_wound(const model::Model& model, const std::vector<dynamics::BodyMotio
 }
 
 /// Moves bodies to the equilibrium from which the motion starts. @return how its rows stand
+/// @param held gets what friction of elastic contacts holds with
 RestStands settle_at_rest(const model::BuiltModel& built, const dynamics::MassMetric& metric,
-                          model::RigidPairs* pairs, Prepared& out) {
+                          model::RigidPairs* pairs, Prepared& out, std::vector<HeldContact>& held) {
   const StaticReport report = find_static_equilibrium(built.model, metric, out.state,
                                                       built.description.initial.friction, pairs);
   out.setup_factorisations = report.factorisations;
   out.warnings.insert(out.warnings.end(), report.warnings.begin(), report.warnings.end());
   out.notes.insert(out.notes.end(), report.notes.begin(), report.notes.end());
+  held = report.held;
   return std::exchange(out.state.memory.at_rest, {});
 }
 
@@ -183,6 +186,12 @@ void choose_rows(const model::Model& model, const dynamics::MassMetric& metric, 
   out.redundant_text = describe_redundancy(model, out.state.memory, rank.dependent);
 }
 
+/// Whether coordinates of joints are to start with given values.
+bool starts_elsewhere(const model::BuiltModel& built) {
+  return std::any_of(built.starts.begin(), built.starts.end(),
+                     [](const model::StartCoordinate& start) { return start.value.has_value(); });
+}
+
 }  // namespace
 
 Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& metric,
@@ -204,10 +213,8 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
     if (!initial.preload) throw;
     out.notes.push_back("bodies are deformed to close the joints (preload)");
   }
-  const bool starts_elsewhere =
-      std::any_of(built.starts.begin(), built.starts.end(),
-                  [](const model::StartCoordinate& start) { return start.value.has_value(); });
-  if (is_closed && starts_elsewhere) assemble_positions(model, metric, out.state, built.starts);
+  if (is_closed && starts_elsewhere(built))
+    assemble_positions(model, metric, out.state, built.starts);
   out.warnings = built.description.warnings;
   if (is_closed) {
     for (std::string& text : judge_assembly(built, out.moves)) {
@@ -215,11 +222,13 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
     }
   }
   RestStands at_rest;
+  std::vector<HeldContact> held;
   const bool is_static = initial.start == model::StartKind::static_equilibrium;
   bool is_at_rest = is_static || initial.preload;
-  if (is_at_rest) at_rest = settle_at_rest(built, metric, pairs, out);
+  if (is_at_rest) at_rest = settle_at_rest(built, metric, pairs, out, held);
   if (set_initial_displacements(built, out.state)) {
     at_rest.clear();
+    held.clear();
     is_at_rest = false;
     assemble_positions(model, metric, out.state, built.starts);
   }
@@ -240,6 +249,7 @@ Prepared prepare(const model::BuiltModel& built, const dynamics::MassMetric& met
   close_rows(model, at_rest, motions, out.state.memory);
   count_start_turns(built.starts, model, out.state.memory);
   dynamics::start_signals(model, motions, out.state.t, out.state.memory);  // they see the turns
+  keep_held(model, held, motions, out.state);
   settle_rows(model, metric, out.rows_in_use, out.state);
   if (have_laws_of_reactions(model)) settle_friction(model, metric, out.rows_in_use, out.state);
   return out;

@@ -113,6 +113,7 @@ StaticReport find_static_equilibrium(const model::Model& model, const dynamics::
   set_static_state(point, rest, balance, compliances, state);
   report.rest = point.rest;
   report.order = point.order;
+  report.held = rest.held_contacts(balance.rest, point.rest);
   note_unloaded(rest, descent, report.notes);
   for (std::string& text :
        overloaded_friction(friction_demands(model, metric, rest, point.rest, state))) {

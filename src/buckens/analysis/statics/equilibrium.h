@@ -27,8 +27,9 @@ struct StaticReport {
   std::vector<std::string> notes;  ///< what a user should know
   /// About what overlapped, and what friction could not hold.
   std::vector<std::string> warnings;
-  RestStands rest;  ///< of the rows of force laws that hold, see RestRows
-  RestOrder order;  ///< of the pairs that have rows among them
+  RestStands rest;                ///< of the rows of force laws that hold, see RestRows
+  RestOrder order;                ///< of the pairs that have rows among them
+  std::vector<HeldContact> held;  ///< elastic contacts with frozen friction
 };
 
 /// Moves frames and meshes to a stable equilibrium under gravity, springs and loads at state.t,

@@ -128,7 +128,7 @@ void RestRows::evaluate_pair(std::size_t k, const std::vector<dynamics::BodyMoti
   out.presses[k] = soft[spot].stiffness > 0.0 ? 1 : 0;
   out.rows.push_back(dynamics::system_row(model_, first, first_at, second, second_at, J));
   out.values.push_back(0.0);
-  out.pushes.emplace_back(J.segment<3>(9).transpose());
+  out.pushes.push_back({J.segment<3>(6).transpose(), J.segment<3>(9).transpose()});
 }
 
 }  // namespace buckens::analysis

@@ -182,7 +182,7 @@ void RestRows::evaluate(const std::vector<dynamics::BodyMotion>& motions, double
     }
     out.rows.push_back(rest_row_of(model_, load, ends, J));
     out.values.push_back(sight.coordinate.value);
-    out.pushes.emplace_back(J.segment<3>(9).transpose());
+    out.pushes.push_back({J.segment<3>(6).transpose(), J.segment<3>(9).transpose()});
     if (row.kind == Kind::one_sided) {
       out.contacts[k] = stop_at(model_, row).contact(sight.coordinate.value);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,13 @@ struct RestRow {
   double start = 0;       ///< of `held`: the value that it holds [m] or [rad]
 };
 
+/// What frozen friction of an elastic contact holds with.
+struct HeldContact {
+  std::size_t load = 0;                 ///< index into Model::loads
+  std::optional<model::NearPair> pair;  ///< of a contact of many bodies
+  spatial::Wrench along;                ///< on its second marker
+};
+
 /// Which rows are closed, and their forces: RowStand::regime is the end of a one-sided row, 1 for
 /// other closed rows, 0 if open. A row that has been opened keeps its force until the next step
 /// removes it.
@@ -49,7 +57,7 @@ using RestOrder = std::vector<PairRows>;
 struct RestValues {
   std::vector<dynamics::SystemRow> rows;  ///< derivatives
   std::vector<double> values;             ///< of the coordinates [m] or [rad]
-  std::vector<Eigen::Vector3d> pushes;    ///< force on the second marker per unit force of the row
+  std::vector<spatial::Wrench> pushes;    ///< on the second marker per unit force of the row
   std::vector<loads::RigidLaw::Contact> contacts;  ///< of one-sided rows: the nearer end
   std::vector<char> presses;                       ///< of elastic contacts: whether the spot does
 };
@@ -105,6 +113,8 @@ class RestRows {
   /// Friction along a surface holds while the normal row is closed and touched before the step; for
   /// elastic contacts, where they overlap.
   void follow_contacts(const RestValues& values, RestStands& stands) const;
+  /// What frozen friction of elastic contacts holds with; those without force are left out.
+  std::vector<HeldContact> held_contacts(const RestValues& values, const RestStands& stands) const;
   /// Opens what is closed without a noticeable force.
   void open_unloaded(double force, RestStands& stands) const;
   /// Largest gap below zero of open rows, as a share of the model's length or of 1 rad.

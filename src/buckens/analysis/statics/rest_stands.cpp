@@ -59,6 +59,25 @@ void RestRows::follow_contacts(const RestValues& values, RestStands& stands) con
   }
 }
 
+std::vector<HeldContact> RestRows::held_contacts(const RestValues& values,
+                                                 const RestStands& stands) const {
+  std::vector<HeldContact> out;
+  for (std::size_t k = 0, end = 0; k < rows_.size(); k = end) {
+    const RestRow& row = rows_[k];
+    end = k + 1;
+    if (row.kind != Kind::along || row.across >= 0) continue;
+    while (end < rows_.size() && rows_[end].load == row.load && rows_[end].pair == row.pair) ++end;
+    HeldContact held{row.load, std::nullopt, {}};
+    if (row.pair >= 0) held.pair = pair(k);
+    for (std::size_t i = k; i < end; ++i) {
+      const double force = stands[i].force;
+      held.along += {force * values.pushes[i].torque, force * values.pushes[i].force};
+    }
+    if (held.along.force.squaredNorm() + held.along.torque.squaredNorm() > 0.0) out.push_back(held);
+  }
+  return out;
+}
+
 void RestRows::open_unloaded(double force, RestStands& stands) const {
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     if (rows_[k].kind != Kind::one_sided) continue;
@@ -110,7 +129,7 @@ RestStands RestRows::of_loads(const RestValues& values, const RestStands& stands
       out[load] = stands[k];
     } else {
       sums.try_emplace({load, rows_[k].pair}, Eigen::Vector3d::Zero()).first->second +=
-          stands[k].force * values.pushes[k];
+          stands[k].force * values.pushes[k].force;
     }
   }
   for (const auto& [of, sum] : sums) out[of.first] = {1, out[of.first].force + sum.norm()};

@@ -38,7 +38,8 @@ std::vector<Face> faces_of(const RestRows& rest, const RestValues& values,
     const RestRow& row = rest[k];
     if (row.kind != RestRow::Kind::along || row.across >= 0) continue;
     if (row.part % RestRow::kOfSpot != 1 || stands[k].regime == 0) continue;
-    const Eigen::Vector3d normal = values.pushes[k].cross(values.pushes[k + 1]).normalized();
+    const Eigen::Vector3d normal =
+        values.pushes[k].force.cross(values.pushes[k + 1].force).normalized();
     auto face = out.begin();
     while (face != out.end() && !is_of(*face, row, normal)) ++face;
     if (face == out.end()) face = out.insert(out.end(), Face{row.load, row.pair, normal, {}});
