@@ -304,7 +304,9 @@ void Cable::start_states(const Sight& sight, double* states) const {
 void Cable::require_followed(std::size_t pulley, const double* before, const Stand& s) {
   for (const auto& [old, now] : {std::pair(before[kArrivingRate], s.arriving_rate[pulley]),
                                  std::pair(before[kLeavingRate], s.leaving_rate[pulley])}) {
-    spatial::require_countable({0, 0, old, 0}, {0, 0, now, s.h}, spatial::kTurn,
+    const spatial::CountedValue then{0, 0, old, 0}, at_end{0, 0, now, s.h};
+    if (spatial::is_countable(then, at_end, spatial::kTurn)) continue;
+    spatial::require_countable(then, at_end, spatial::kTurn,
                                fmt::format("the speed of its pulley {}", pulley + 1));
   }
 }

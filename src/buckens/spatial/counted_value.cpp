@@ -23,7 +23,7 @@ CountedValue follow_turns(const CountedValue& expected, double fraction) {
 }
 
 void require_countable(const CountedValue& before, const CountedValue& after, double turn,
-                       const std::string& what) {
+                       std::string_view what) {
   if (is_countable(before, after, turn)) return;
   throw StepTooLong(fmt::format(
       "{} goes from {:.4g} to {:.4g} {} within one step of {:.3g} s, so that one turn more or less "

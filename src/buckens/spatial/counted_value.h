@@ -3,7 +3,7 @@
 
 #include <cmath>
 #include <numbers>
-#include <string>
+#include <string_view>
 
 namespace buckens::spatial {
 
@@ -38,7 +38,7 @@ inline bool is_countable(const CountedValue& before, const CountedValue& after, 
 }
 /// @param what names it @throws StepTooLong if it is not
 void require_countable(const CountedValue& before, const CountedValue& after, double turn,
-                       const std::string& what);
+                       std::string_view what);
 
 /// How far an angle within the turn has turned: the way that is nearest to the one expected [rad].
 inline double way_turned(double from, double to, double expected) {
