@@ -66,9 +66,8 @@ class TimeMarch {
   /// @throws NumericalError naming the joint or body that resists, or whose error stays too large
   /// @param holds_event whether a step contains an event whose instant matters: it is then repeated
   ///        with shorter steps, down to 1/16 of the longest, so that the event is at the end of one
-  /// @param is_too_long whether a step is too long for what happened in it: it is then repeated
-  /// with
-  ///        shorter ones, down to h/2²⁰, which is taken as it is
+  /// @param is_too_long whether a step is too long for what happened in it: it is then halved, down
+  ///        to h/2²⁰, which is taken as it is
   StepReport advance(const model::State& before, model::State& after,
                      const StepQuestion& holds_event = {}, const StepQuestion& is_too_long = {});
 
