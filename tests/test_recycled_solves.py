@@ -65,7 +65,7 @@ def test_threads_change_nothing(run, tmp_path):
 
 
 # 4000 steps of several lengths in the first 6 ms with step control, which has 40 000 in 30 ms.
-@pytest.mark.parametrize("changes, half", [((), 0.015), (("tolerance=1e-4", "duration=6 ms"), 0.003)], ids=["", "tolerance=1e-4"])
+@pytest.mark.parametrize("changes, half", [((), 0.015), (("tolerance=1e-4", "duration=8 ms"), 0.004)], ids=["", "tolerance=1e-4"])
 def test_a_resumed_run_goes_on_with_what_was_kept(run, tmp_path, changes, half):
     control = [word for change in changes for word in ("--set", f"simulation.{change}")]
     whole, summary = run("whole", "--save-state", "whole.state", *control)

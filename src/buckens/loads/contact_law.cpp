@@ -69,14 +69,12 @@ FrictionForce friction_force(const ContactData& data, const Vector3d& strain, co
   out.slides = size > bound;
   out.force = -trial;
   out.strain = strain;
-  // No spring is strained beyond the bound, not even where a point that has turned round within a
-  // long step has a damper that makes up for it. What the damper alone brings to the bound strains
-  // nothing: that would be energy from nowhere.
-  const double elastic = k * strain.norm();
-  if (elastic > bound) out.strain *= bound / elastic;
   if (!out.slides) return out;
   out.share = bound / size;
   out.force = -bound * out.along;
+  // What the damper alone brings to the bound strains nothing: that would be energy from nowhere.
+  const double elastic = k * strain.norm();
+  if (elastic > bound) out.strain *= bound / elastic;
   return out;
 }
 
