@@ -7,6 +7,7 @@ import math
 import numpy
 import pytest
 
+from elastic_crank import ELASTIC_CRANK
 from test_belts import BRAKE
 from test_save_state import (CABLES, CLEARANCE, CONTROL, DRIVEN, ELBOW, EVENTS, HEAP, LAWS, RIGID, ROUGH, model)
 
@@ -289,19 +290,7 @@ output: {every: 1 ms, sensors: {x: {joint-coordinate: rail}, balance: {energy: b
     assert numpy.abs(out["balance"][:101]).max() < 1e-12
 
 
-STRUCK_CRANK = """
-buckens: 1
-gravity: [0, -9.81, 0]
-planar: xy
-bodies:
-  crank: {rigid: {mass: 0.2, com: [0.05, 0, 0], inertia: [0, 0, 1e-3]}, markers: {tip: {position: [0.1, 0, 0]}}}
-  rod: {beam: {from: [0, 0, 0], to: [0.3, 0, 0], elements: 6, section: {rectangle: {width: 10 mm, height: 10 mm}}, material: {E: 70 GPa, nu: 0.3, rho: 2700}}, at: {position: [0.1, 0, 0]}}
-  sl: {rigid: {mass: 0.3, inertia: [0, 0, 1e-4]}, at: {position: [0.4, 0, 0]}}
-joints:
-  a: {revolute: {between: [ground, crank/origin]}}
-  b: {revolute: {between: [crank/tip, rod/start]}}
-  c: {revolute: {between: [rod/end, sl]}}
-  d: {prismatic: {between: [ground, sl], axis: [1, 0, 0]}}
+STRUCK_CRANK = ELASTIC_CRANK + """
 signals:
   w: {joint-speed: a}
   u: {pid: {input: "20-w", proportional: 0.5, integral: 1, limits: [-3, 3]}}
@@ -312,7 +301,6 @@ loads:
   fd: {slide-friction: {joint: d, static: 0.1}}
   mo: {hinge-motor: {joint: a, torque: u, torque-limit: 3, power-limit: 20 W}}
   st: {slide-stop: {joint: d, from: -0.15, restitution: 0.2}}
-initial: {joints: {a: {angle: 30 deg}}}
 simulation: {duration: 0.15 s, step: STEP}
 output: {every: 1 ms, sensors: {rubbed: {energy: joint-friction}, work: {energy: work}, balance: {energy: balance}}}
 """

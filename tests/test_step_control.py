@@ -7,6 +7,8 @@ import math
 
 import pytest
 
+from elastic_crank import ELASTIC_CRANK
+
 PENDULUM = """buckens: 1
 gravity: [0, -9.81, 0]
 planar: xy
@@ -56,20 +58,7 @@ def test_automatic_steps(run, tmp_path):
     assert sum(size["steps"] for size in control["sizes"]) == summary(tmp_path)["steps"]
 
 
-ELASTIC_ROD = """buckens: 1
-gravity: [0, -9.81, 0]
-planar: xy
-bodies:
-  crank: {rigid: {mass: 0.2, com: [0.05, 0, 0], inertia: [0, 0, 1e-3]}, markers: {tip: {position: [0.1, 0, 0]}}}
-  rod: {beam: {from: [0, 0, 0], to: [0.3, 0, 0], elements: 6, section: {rectangle: {width: 10 mm, height: 10 mm}},
-               material: {E: 70 GPa, nu: 0.3, rho: 2700}}, at: {position: [0.1, 0, 0]}}
-  slider: {rigid: {mass: 0.3, inertia: [0, 0, 1e-4]}, at: {position: [0.4, 0, 0]}}
-joints:
-  hub: {revolute: {between: [ground, crank/origin]}}
-  pin: {revolute: {between: [crank/tip, rod/start]}}
-  end: {revolute: {between: [rod/end, slider]}}
-  guide: {prismatic: {between: [ground, slider], axis: [1, 0, 0]}}
-initial: {joints: {hub: {angle: 30 deg}}}
+ELASTIC_ROD = ELASTIC_CRANK + """
 output: {every: 10 ms, sensors: {end: {position: rod/end}}}
 simulation: {duration: 0.5 s, %s}
 """
