@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace buckens::loads {
@@ -12,7 +13,7 @@ class EndOfSet {
  public:
   /// @param slope how fast the end falls with the rate, 0: it does not [N m s/rad] or [N s/m]
   static int regime(double force, double slope) {
-    const int end = slope > 0.0 ? kFalling + std::ilogb(slope) : 1;
+    const int end = slope > 0.0 ? kFalling + std::min(std::ilogb(slope), kSteepest) : 1;
     return force > 0.0 ? end : -end;
   }
   /// Which end: 1 the highest, −1 the lowest, 0 none.
@@ -23,6 +24,7 @@ class EndOfSet {
 
  private:
   static constexpr int kFalling = 10000;  // far beyond the exponents of numbers
+  static constexpr int kSteepest = 2000;  // that of infinity, which is a larger int
   static constexpr int kOthers = 1000;    // regimes of other kinds are smaller
 };
 

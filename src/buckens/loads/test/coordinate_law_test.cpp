@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/loads/coordinate_law.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
+#include "buckens/loads/end_of_set.h"
 #include "buckens/loads/joint_friction.h"
 
 namespace buckens::loads {
@@ -33,6 +36,15 @@ double stiffness(const ForceElement& law, const Sight& sight) {
   law.append_tangent(sight, rows);
   EXPECT_EQ(rows.size(), 1U);
   return rows.at(0).stiffness;
+}
+
+TEST(EndOfSet, TellsEndsOfAnySlope) {
+  for (const double slope : {0.0, 1e-320, 1.0, 1e308, HUGE_VAL}) {
+    EXPECT_EQ(EndOfSet::of(EndOfSet::regime(2.0, slope)), 1) << slope;
+    EXPECT_EQ(EndOfSet::of(EndOfSet::regime(-2.0, slope)), -1) << slope;
+  }
+  EXPECT_EQ(EndOfSet::of(0), 0);
+  EXPECT_EQ(EndOfSet::of(-2), 0);
 }
 
 TEST(CoordinateLaw, SpringActsOnBothMarkersAgainstItsStrain) {
