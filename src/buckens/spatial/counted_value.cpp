@@ -7,6 +7,10 @@
 
 namespace buckens::spatial {
 
+namespace {
+constexpr double kMostTurnsOfStep = 1e6;
+}  // namespace
+
 double CountedValue::value() const { return kTurn * turns + fraction; }
 
 double difference(const CountedValue& from, const CountedValue& to) {
@@ -17,18 +21,21 @@ CountedValue follow_turns(const CountedValue& expected, double fraction) {
   CountedValue out = expected;
   out.fraction = fraction;
   const double jump = expected.fraction - fraction;
-  // Few leave the turn where they were.
-  if (std::abs(jump) > 0.5 * kTurn) out.turns += static_cast<int>(std::lround(jump / kTurn));
+  // Few leave the turn where they were; beyond what is counted the motion has diverged.
+  if (std::abs(jump) > 0.5 * kTurn && std::abs(jump) < kMostTurnsOfStep * kTurn) {
+    out.turns += static_cast<int>(std::lround(jump / kTurn));
+  }
   return out;
 }
 
 void require_countable(const CountedValue& before, const CountedValue& after, double turn,
                        std::string_view what) {
   if (is_countable(before, after, turn)) return;
+  // Plus zero: nobody turns at −0.
   throw StepTooLong(fmt::format(
       "{} goes from {:.4g} to {:.4g} {} within one step of {:.3g} s, so that one turn more or less "
       "could be meant; use a smaller step than that",
-      what, before.rate, after.rate, turn == kTurn ? "rad/s" : "m/s", after.t - before.t));
+      what, before.rate + 0.0, after.rate, turn == kTurn ? "rad/s" : "m/s", after.t - before.t));
 }
 
 }  // namespace buckens::spatial
