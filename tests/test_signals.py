@@ -3,6 +3,7 @@
 
 import json
 import math
+import re
 
 import numpy
 import pytest
@@ -106,8 +107,9 @@ def pid(e, x, P, I, D, T, filter_time, limit):
     return u
 
 
-def test_a_sampled_pid_is_the_discrete_transfer_function(sensors):
-    """Forces that are held are integrated exactly by the method whose forces are means over a step."""
+@pytest.mark.parametrize("method", ["newmark", "generalized-alpha", "hht", "wilson"])
+def test_a_sampled_pid_is_the_discrete_transfer_function(sensors, method):
+    """Forces that are held are integrated exactly, and accelerations jump with them where a method carries them."""
     P, I, D, T, N, J, limit = 30.0, 60.0, 1.2, 0.005, 0.002, 0.05, 8.0
     angle, speed, held, x, exact = 0.0, 0.0, 0.0, [0.0, 0.0, None], []
     for _ in range(101):
@@ -118,7 +120,7 @@ def test_a_sampled_pid_is_the_discrete_transfer_function(sensors):
     block = (f"u: {{pid: {{input: \"0.5 - angle\", proportional: {P}, integral: {I}, derivative: {D}, filter: {N} s, "
              f"limits: [-{limit}, {limit}], sample: {T} s}}}}")
     for step in ("5 ms", "1 ms"):
-        out = sensors(wheel([block], "torque: \"u\"", step, "method: newmark", ("u",)))
+        out = sensors(wheel([block], "torque: \"u\"", step, f"method: {method}", ("u",)))
         # Rounding in 500 steps, and the end of iterations.
         assert out["shaft.value"] == pytest.approx(exact[:, 0], abs=1e-9)
         assert out["shaft.rate"] == pytest.approx(exact[:, 1], abs=1e-7)
@@ -285,6 +287,19 @@ simulation: {duration: 5 s, step: 1 ms}
     buckens("run", "model.yaml", "-o", "out").must(4, "model.yaml:9:", "signal \"u\" has grown to", "diverges", "`limits`")
 
 
+DIVERGING = """
+buckens: 1
+bodies: {b: {rigid: {mass: 1, com: [0.5, 0, 0], inertia: [0.01, 0.01, 0.01]}}}
+joints: {hinge: {revolute: {between: [ground, b/origin], axis: [0, 1, 0]}}}
+signals:
+SIGNALS
+loads:
+  motor: {hinge-motor: {joint: hinge, torque: "u"}}
+  spring: {hinge-spring: {joint: hinge, stiffness: 1}}
+simulation: {duration: 5 s, step: 1 ms}
+"""
+
+
 @pytest.mark.parametrize("signals, named, others", [
     ("""  angle: {joint-angle: hinge}
   u: {transfer-function: {input: "1 - angle", numerator: [1e6], denominator: [1e-3, 1, 0]}}""", "u", ["angle"]),
@@ -293,20 +308,21 @@ simulation: {duration: 5 s, step: 1 ms}
 ])
 def test_a_controller_that_diverges_is_named_where_a_step_fails(buckens, tmp_path, signals, named, others):
     """Long before its states leave all bounds: the joint turns too fast for any step, and only its name was told."""
-    (tmp_path / "model.yaml").write_text(f"""
-buckens: 1
-bodies: {{b: {{rigid: {{mass: 1, com: [0.5, 0, 0], inertia: [0.01, 0.01, 0.01]}}}}}}
-joints: {{hinge: {{revolute: {{between: [ground, b/origin], axis: [0, 1, 0]}}}}}}
-signals:
-{signals}
-loads:
-  motor: {{hinge-motor: {{joint: hinge, torque: "u"}}}}
-  spring: {{hinge-spring: {{joint: hinge, stiffness: 1}}}}
-simulation: {{duration: 5 s, step: 1 ms}}
-""")
+    (tmp_path / "model.yaml").write_text(DIVERGING.replace("SIGNALS", signals))
     buckens("run", "model.yaml", "-o", "out").must(
         4, "model.yaml:7:", f"signal \"{named}\" has grown exponentially", *[f"\"{one}\"" for one in others],
         "seems to diverge", "`limits`", "then the step at t =", "joint \"hinge\"")
+
+
+def test_a_continued_run_remembers_what_has_grown(buckens, tmp_path):
+    """The doublings of a signal are part of a checkpoint: one that fails soon after it was continued names it, too."""
+    signals = DIVERGING.replace("SIGNALS", "  speed: {joint-speed: hinge}\n  u: 1 + 500*speed")
+    (tmp_path / "model.yaml").write_text(signals)
+    failed = buckens("run", "model.yaml", "-o", "out").must(4, "signal \"u\" has grown exponentially")
+    since = re.search(r"from [0-9.e+]+ at t = 0.005 s", failed.err)[0]
+    (tmp_path / "model.yaml").write_text(signals.replace("5 s", "11 ms"))
+    buckens("run", "model.yaml", "-o", "short", "-q").must(0)
+    buckens("run", "--continue", "short", "--until", "5 s").must(4, "signal \"u\" has grown exponentially", since)
 
 
 def test_an_event_that_chatters_is_named(buckens, tmp_path):

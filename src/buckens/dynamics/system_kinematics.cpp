@@ -75,13 +75,22 @@ SystemRow system_row(const model::Model& model, const model::MarkerId& first,
           {}};
 }
 
-std::vector<BodyMotion> motions_of(const model::Model& model, const model::State& state) {
-  std::vector<BodyMotion> motions(model.bodies.size());
-  for (std::size_t k = 0; k < motions.size(); ++k) {
-    motions[k].frame = state.bodies[k].frame;
-    motions[k].y = model.bodies[k].row_values(state.bodies[k].d);
-    motions[k].y_dot = model.bodies[k].row_values(state.bodies[k].d_dot);
+void motions_of(const model::Model& model, const model::State& state,
+                std::vector<BodyMotion>& out) {
+  out.resize(model.bodies.size());
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const model::BodyState& s = state.bodies[k];
+    out[k].frame = s.frame;
+    if (!model.bodies[k].is_flexible()) continue;
+    const auto& rows = model.bodies[k].flexible->rows;
+    out[k].y.noalias() = rows * s.d;
+    out[k].y_dot.noalias() = rows * s.d_dot;
   }
+}
+
+std::vector<BodyMotion> motions_of(const model::Model& model, const model::State& state) {
+  std::vector<BodyMotion> motions;
+  motions_of(model, state, motions);
   return motions;
 }
 

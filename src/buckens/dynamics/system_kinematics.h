@@ -87,5 +87,7 @@ SystemRow system_row(const model::Model& model, const model::MarkerId& first,
 
 /// Motions of all bodies at a state.
 std::vector<BodyMotion> motions_of(const model::Model& model, const model::State& state);
+/// The same into room that is kept, so that steps allocate nothing.
+void motions_of(const model::Model& model, const model::State& state, std::vector<BodyMotion>& out);
 
 }  // namespace buckens::dynamics

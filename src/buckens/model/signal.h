@@ -74,6 +74,8 @@ struct Signal {
   std::optional<HeldReading> held;       ///< of a block whose state is that of a sensor
 
   bool is_sampled() const { return block && block->sample_time() > 0.0; }
+  /// Whether it keeps its value over a step, and takes another at its end.
+  bool is_held() const { return is_sampled() || (block && block->samples_each_step()); }
 };
 
 /// All signals of a model.
@@ -86,6 +88,10 @@ struct SignalSet {
   double rho = 1;             ///< spectral radius of their integration at infinite frequency
 
   bool empty() const { return all.empty(); }
+  /// Whether values of some are held over steps, and jump at their ends.
+  bool have_samples() const {
+    return std::any_of(all.begin(), all.end(), [](const Signal& one) { return one.is_held(); });
+  }
   /// Whether some are read from sensors at the ends of steps; blocks are then sampled afterwards.
   bool has_held_readings() const {
     return std::any_of(all.begin(), all.end(), [](const Signal& one) { return bool(one.held); });

@@ -72,9 +72,23 @@ void SimulationRun::step() {
   note_events(found);
   if (recording_) recording_->after_step(before_, state, is_done());
   watch_->after_step(march_->stepper(), state);
+  if (has_samples_ && carries_accelerations()) pass_samples(report);
   act_on_events(found);
   if (own_.pairs() != nullptr) find_pairs();
   for (const auto& callback : callbacks) callback(state.t - before_.t);
+}
+
+/// Impacts without held readings have found accelerations with what samples have become.
+void SimulationRun::pass_samples(const stepping::StepReport& report) {
+  model::State& state = prepared_->state;
+  if (report.must_settle && readings_->empty()) return;
+  dynamics::Circumstances around = dynamics::circumstances_of(before_);
+  around.lambda = &state.lambda;
+  dynamics::evaluate_signals(built_.model, dynamics::motions_of(built_.model, state), state.t,
+                             around, unsampled_);
+  if (unsampled_.values == state.memory.signals) return;
+  jump_->note(state, &unsampled_.values);
+  jump_->pass(march_->stepper(), state);
 }
 
 void SimulationRun::find_pairs() {

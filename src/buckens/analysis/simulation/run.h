@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "buckens/analysis/initial/force_jump.h"
 #include "buckens/analysis/initial/prepare.h"
 #include "buckens/analysis/simulation/coupling_watch.h"
 #include "buckens/analysis/simulation/drive_laws.h"
@@ -87,6 +88,10 @@ class SimulationRun {
   void note_events(const std::vector<EventWatch::Found>& found);
   void act_on_events(std::vector<EventWatch::Found> found);
   void begin_records();
+  /// Newmark's method begins a step with the forces that act then, not with accelerations.
+  bool carries_accelerations() const { return spec_.method != model::IntegrationMethod::newmark; }
+  /// Lets accelerations follow samples at the end of a step.
+  void pass_samples(const stepping::StepReport& report);
   void take_steps();
   stepping::StepReport take_step(const model::State& before, model::State& after);
   bool holds_action(const model::State& from, const model::State& to);
@@ -121,6 +126,8 @@ class SimulationRun {
   std::optional<CouplingWatch> watch_;
   std::optional<results::Recorder> observer_;
   std::optional<HeldReadings> readings_;
+  std::optional<ForceJump> jump_;
+  dynamics::SignalValues unsampled_;  // at the end of the last step, samples there not yet taken
   std::optional<RunRecording> recording_;
   std::optional<base::SavedValues> restored_;  // kept until it has been recorded
   results::RunSummary summary_;
@@ -137,6 +144,7 @@ class SimulationRun {
   bool is_finished_ = false;  // records are finished
   bool has_new_inputs_ = false;
   bool has_quasi_static_ = false;
+  bool has_samples_ = false;
 };
 
 }  // namespace buckens::analysis

@@ -128,6 +128,7 @@ void SimulationRun::begin_march(double start) {
   settings.exchange = options_.exchange;
   settings.released = prepared_->released;
   march_.emplace(built_.model, settings, prepared_->rows_in_use, march);
+  jump_.emplace(built_.model);  // it keeps what belongs to the steppers of a march
   steps_ = march.tolerance ? 0 : steps_taken_ + march.longest_steps;
   check_samples();
 }
@@ -146,6 +147,7 @@ void SimulationRun::set_up() {
   work_.emplace(built_.model, prepared_->state, march_->stepper().scheme().weight == 1.0);
   readings_.emplace(built_, *observer_);
   readings_->start(*observer_, work_->work(), prepared_->state);
+  has_samples_ = built_.model.signals.have_samples();
   work_->take_jump(prepared_->state);
   drives_.emplace(built_.description);
   shafts_.emplace(built_.model);

@@ -12,8 +12,8 @@ namespace buckens::analysis {
 namespace {
 
 // The last growth by this factor is looked at; a stretch has most of it, or the signal has jumped.
-constexpr double kGrowth = 4096.0;
-constexpr double kLeastGrowth = kGrowth / 8.0;
+constexpr double kGrowthSeen = 4096.0;
+constexpr double kLeastGrowthSeen = kGrowthSeen / 8.0;
 // A stretch has at least as many doublings, each in a step of its own: no single jump.
 constexpr std::ptrdiff_t kLeastDoublings = 5;
 // How much longer the second half of a growth may take, as a factor, than the first. Exponential
@@ -48,8 +48,8 @@ std::optional<SignalGrowth::Stretch> SignalGrowth::growth(std::size_t signal) co
                         [size](const Doubling& one) { return one.size >= size; });
   };
   const Doubling& last = known.back();
-  const auto first = reaches(last.size / kGrowth);
-  if (last.size < kLeastGrowth * first->size || known.end() - first < kLeastDoublings) {
+  const auto first = reaches(last.size / kGrowthSeen);
+  if (last.size < kLeastGrowthSeen * first->size || known.end() - first < kLeastDoublings) {
     return std::nullopt;
   }
   const auto middle = reaches(first->size * std::sqrt(last.size / first->size));
@@ -83,6 +83,24 @@ void SignalGrowth::check_failed(const NumericalError& failure) const {
                   signal.name, stretch.from.size, stretch.from.t, stretch.to.size, stretch.to.t,
                   all.empty() ? "" : fmt::format(", like {}", fmt::join(all, ", ")),
                   failure.what()));
+}
+
+void SignalGrowth::visit_saved(const base::SaveVisit& visit) {
+  if (!acts_) return;
+  for (std::size_t k = 0; k < doublings_.size(); ++k) {
+    std::vector<double> instants, sizes;
+    for (const Doubling& one : doublings_[k]) {
+      instants.push_back(one.t);
+      sizes.push_back(one.size);
+    }
+    const base::SaveVisit signal = visit.inside(k);
+    signal.any_numbers("instants", instants);
+    signal.any_numbers("sizes", sizes);
+    if (!visit.is_restoring()) continue;
+    if (sizes.size() != instants.size()) signal.refuse("sizes", "has another length than instants");
+    doublings_[k].clear();
+    for (std::size_t i = 0; i < sizes.size(); ++i) doublings_[k].push_back({instants[i], sizes[i]});
+  }
 }
 
 }  // namespace buckens::analysis

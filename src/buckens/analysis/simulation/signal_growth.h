@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/saved_values.h"
 #include "buckens/model/model.h"
 
 namespace buckens::analysis {
@@ -20,6 +21,8 @@ class SignalGrowth {
 
   /// @throws NumericalError naming the signals that have grown exponentially, and the failure
   void check_failed(const NumericalError& failure) const;
+
+  void visit_saved(const base::SaveVisit& visit);
 
  private:
   /// An instant at which a signal was at least twice as large as ever before it.

@@ -144,10 +144,14 @@ void SimulationRun::set_load(const std::string& name, const std::optional<Eigen:
   model::State& state = prepared_->state;
   const std::vector<std::size_t> found = loads_with_values(name);
   state.inputs.resize(built_.model.loads.size());
+  jump_->note(state);
   for (const std::size_t k : found) state.inputs[k] = value;
   has_new_inputs_ = true;
   observed_at_ = -1;
-  if (steps_taken_ > 0) return;
+  if (steps_taken_ > 0) {
+    if (carries_accelerations()) jump_->pass(march_->stepper(), state);
+    return;
+  }
   settle_rigid_rows(built_.model, *metric_, prepared_->rows_in_use, state);
 }
 
@@ -198,11 +202,15 @@ void SimulationRun::set_signal(const std::string& name, double value) {
     dynamics::change_states(built_.model, dynamics::motions_of(built_.model, state),
                             dynamics::circumstances_of(state), changes, state.memory);
   };
+  jump_->note(state);
   follow({{signal.first_state, value}});
   work_->take_jump(state);
   has_new_inputs_ = true;
   observed_at_ = -1;
-  if (steps_taken_ > 0) return;
+  if (steps_taken_ > 0) {
+    if (carries_accelerations()) jump_->pass(march_->stepper(), state);
+    return;
+  }
   settle_rigid_rows(built_.model, *metric_, prepared_->rows_in_use, state);
   follow({});  // signals that look at forces
 }
@@ -234,6 +242,7 @@ void SimulationRun::visit_saved(const base::SaveVisit& visit) {
   statistics_->visit_saved(visit.inside("statistics"));
   watch_->visit_saved(visit.inside("coupling"));
   observer_->visit_saved(visit.inside("sensors"));
+  growth_->visit_saved(visit.inside("growth"));
   if (built_.description.events.empty()) return;
   events_->visit_saved(visit.inside("events"));
   visit.texts("told_events", told_events_);

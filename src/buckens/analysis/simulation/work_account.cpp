@@ -19,31 +19,13 @@ void add_halves(const std::vector<dynamics::LoadPower>& end, double dynamics::Lo
   }
 }
 
-/// Into room that is kept, so that steps allocate nothing.
-void set_motions(const model::Model& model, const model::State& state,
-                 std::vector<dynamics::BodyMotion>& out) {
-  out.resize(model.bodies.size());
-  for (std::size_t b = 0; b < out.size(); ++b) {
-    const model::BodyState& s = state.bodies[b];
-    out[b].frame = s.frame;
-    if (!model.bodies[b].is_flexible()) continue;
-    const auto& rows = model.bodies[b].flexible->rows;
-    out[b].y.noalias() = rows * s.d;
-    out[b].y_dot.noalias() = rows * s.d_dot;
-  }
-}
-
 }  // namespace
 
 WorkAccount::WorkAccount(const model::Model& model, const model::State& start, bool holds_at_states)
     : model_(model),
       joints_(model),
       parameters_(model, start),
-      has_samples_(std::any_of(model.signals.all.begin(), model.signals.all.end(),
-                               [](const model::Signal& signal) {
-                                 return signal.is_sampled() ||
-                                        (signal.block && signal.block->samples_each_step());
-                               })),
+      has_samples_(model.signals.have_samples()),
       laws_before_(start.memory.laws),
       t_(start.t),
       lambda_before_(start.lambda),
@@ -79,7 +61,7 @@ WorkAccount::Powers WorkAccount::powers_at(const model::State& state,
 
 void WorkAccount::find_powers(const model::State& state, Powers& out,
                               const std::vector<double>* signals) {
-  set_motions(model_, state, motions_);
+  dynamics::motions_of(model_, state, motions_);
   const Powers of_loads = powers_at(state, motions_, signals);
   out.active = of_loads.active;
   out.damping = of_loads.damping;
@@ -152,7 +134,7 @@ long WorkAccount::num_products() const {
 const std::vector<double>* WorkAccount::unsampled(const model::State& before,
                                                   const model::State& state) {
   if (!has_samples_) return nullptr;
-  set_motions(model_, state, motions_);
+  dynamics::motions_of(model_, state, motions_);
   dynamics::Circumstances around = dynamics::circumstances_of(before);
   around.lambda = &state.lambda;
   dynamics::evaluate_signals(model_, motions_, state.t, around, unsampled_);

@@ -50,10 +50,9 @@ TEST(SetSignal, AMotorFollowsASettingThatIsSet) {
     one->run();
   }
   EXPECT_EQ(wheel_spin(simulation), wheel_spin(other));
-  // What is set at the end of a step acts from the next one on: ω̇ = 4 at the first two instants,
-  // then −2t of the instant before. The trapezoidal rule over the 50 steps makes −0.6651; the
-  // method, which weighs the jump a little differently, deviates by 3e-7.
-  EXPECT_NEAR(wheel_spin(simulation), 2.0 - 0.6651, 1e-6);
+  // What is set at the end of a step acts over the next one: ω̇ = 4 in the first, then −2t of the
+  // start of each, in all 0.04 − 2·0.01·(0.51 + … + 0.99) = −0.695.
+  EXPECT_NEAR(wheel_spin(simulation), 2.0 - 0.695, 1e-12);
   EXPECT_THAT([&] { other.set_signal("comand", 1); },
               ThrowsMessage<InputError>(HasSubstr("Did you mean \"command\"?")));
 }
