@@ -7,6 +7,14 @@
 
 namespace buckens::analysis {
 
+namespace {
+
+// Where forces settle, they have done so with fewer decisions that change no stand. Between wedged
+// bodies they may go on for ever, and each takes up to a fifth of a second.
+constexpr int kMostInVain = 40;
+
+}  // namespace
+
 RoughContacts::RoughContacts(const model::Model& model, const dynamics::MassMetric& metric,
                              const std::vector<int>& rows_in_use)
     : model_(model), metric_(metric), rows_in_use_(rows_in_use), cones_(model), rigid_(model) {
@@ -17,7 +25,8 @@ RoughContacts::RoughContacts(const model::Model& model, const dynamics::MassMetr
 
 bool RoughContacts::decide(const dynamics::Forces& forces, model::State& state) {
   rigid_.start(state.memory);
-  if (cones_.hold(forces.rigid, rigid_)) return false;
+  if (in_vain_ >= kMostInVain || cones_.hold(forces.rigid, rigid_)) return false;
+  ++in_vain_;
   const auto motions = dynamics::motions_of(model_, state);
   dynamics::evaluate_soft_rows(model_, motions, state.t, dynamics::circumstances_of(state), soft_);
   const stepping::ContactCones::Instant now{forces.rigid, soft_,         compliance_, motions,
@@ -25,10 +34,13 @@ bool RoughContacts::decide(const dynamics::Forces& forces, model::State& state) 
   if (!cones_.decide(now, 1.0, kInstant, rigid_)) return false;
   const linalg::Vector before = state.memory.laws;
   write(state);
-  return std::any_of(model_.loads.begin(), model_.loads.end(), [&](const model::Load& load) {
-    return load.rigid_row >= 0 && owns(load.rigid_row) &&
-           state.memory.laws[load.first_state] != before[load.first_state];
-  });
+  const bool has_moved =
+      std::any_of(model_.loads.begin(), model_.loads.end(), [&](const model::Load& load) {
+        return load.rigid_row >= 0 && owns(load.rigid_row) &&
+               state.memory.laws[load.first_state] != before[load.first_state];
+      });
+  if (has_moved) in_vain_ = 0;
+  return has_moved;
 }
 
 void RoughContacts::write(model::State& state) const {

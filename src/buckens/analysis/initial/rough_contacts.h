@@ -25,7 +25,8 @@ class RoughContacts {
   /// Whether a row is decided here.
   bool owns(int rigid_row) const { return cones_.rows()[static_cast<std::size_t>(rigid_row)] != 0; }
 
-  /// Decides the stands from accelerations. @param forces at the state
+  /// Decides the stands from accelerations, unless many decisions before have changed none.
+  /// @param forces at the state
   /// @return whether any stand has changed
   bool decide(const dynamics::Forces& forces, model::State& state);
 
@@ -52,6 +53,7 @@ class RoughContacts {
   stepping::RigidRows rigid_;
   std::vector<dynamics::BodyCompliance> compliance_;
   dynamics::SoftRows soft_;
+  int in_vain_ = 0;  ///< decisions since a stand has changed
 };
 
 }  // namespace buckens::analysis
