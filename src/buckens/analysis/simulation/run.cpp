@@ -63,6 +63,7 @@ void SimulationRun::step() {
   } else {
     work_->add(state, &before_);
   }
+  statistics_->add_touches(work_->of_loads(), state.t - before_.t);
   work_->add_parameters(before_, state);
   if (readings_->follow(*observer_, work_->work(), before_, state)) {
     work_->take_jump(state);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -37,6 +38,7 @@ RunStatistics::RunStatistics(const model::BuiltModel& built)
     : built_(built),
       joints_(built.model),
       energy_(built.model),
+      touches_(built.model),
       lowest_frequency_(built.model.bodies.size(), 0.0),
       largest_spin_(built.model.bodies.size(), 0.0),
       deformation_(built.model.bodies.size()) {
@@ -219,6 +221,9 @@ void RunStatistics::fill(const stepping::TimeMarch& march, results::RunSummary& 
   if (undecided_steps_ > 0) {
     summary.measures.emplace_back("undecided_steps", static_cast<double>(undecided_steps_));
     summary.warnings.push_back(describe_undecided(undecided_steps_, steps_));
+  }
+  for (std::string& text : touches_.warnings(energy_scale_)) {
+    summary.warnings.push_back(std::move(text));
   }
   doubt_meshes(built_.description, summary);
   for (const model::WholeBody& whole : built_.model.wholes)

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "buckens/analysis/simulation/deformation_limits.h"
+#include "buckens/analysis/simulation/touch_watch.h"
 #include "buckens/analysis/simulation/trust.h"
 #include "buckens/model/build/build_model.h"
 #include "buckens/results/run_summary.h"
@@ -23,6 +25,10 @@ class RunStatistics {
   void set_lowest_frequency(std::size_t body, double omega) { lowest_frequency_[body] = omega; }
 
   void add_step(const stepping::StepReport& report, const model::State& state);
+  /// To be called after each step. @param of_loads what each load holds at its end, @param h [s]
+  void add_touches(std::span<const dynamics::LoadPower> of_loads, double h) {
+    touches_.add_step(of_loads, h);
+  }
   /// To be called at each record: residual of the sieve, rotations inside bodies, energy error.
   /// @param balance E − E₀ − W + D [J], @param scale energy involved so far [J]; the largest
   /// balance is divided by the largest scale of the run
@@ -58,6 +64,7 @@ class RunStatistics {
   results::Residuals residuals_;
   JointTrust joints_;
   EnergyTrust energy_;
+  TouchWatch touches_;
   bool is_finite_ = true;  // of all energies so far
   double largest_balance_ = 0;
   double energy_scale_ = 0;

@@ -100,6 +100,7 @@ void RunStatistics::visit_saved(const base::SaveVisit& visit) {
   visit.list("largest_spin", largest_spin_, largest_spin_.size());
   joints_.visit_saved(visit.inside("joints"));
   energy_.visit_saved(visit.inside("energy"));
+  touches_.visit_saved(visit.inside("touches"));
   for (std::size_t b = 0; b < deformation_.size(); ++b) {
     const base::SaveVisit body = visit.inside("deformation").inside(b);
     body.number("rotation", deformation_[b].rotation);

@@ -63,6 +63,8 @@ class WorkAccount {
   const results::WorkBalance& work_before() const { return work_before_; }
   /// ∫|P| dt [J]: a measure of the energy that passed through the mechanism.
   double turnover() const { return turnover_; }
+  /// What each load holds and does at the last state; one entry per Model::loads.
+  std::span<const dynamics::LoadPower> of_loads() const { return loads_before_; }
   /// The order of results::WorkBalance::parts.
   const results::EnergyParts& parts() const { return parts_; }
   /// All that is not zero, up to this state.
