@@ -306,12 +306,14 @@ output: {every: 1 ms, sensors: {rubbed: {energy: joint-friction}, work: {energy:
 """
 
 
-@pytest.mark.parametrize("step, open_part", [("0.1 ms", 0.15), ("0.05 ms", 0.05)])
+@pytest.mark.parametrize("step, open_part", [("0.2 ms", 0.02), ("0.1 ms", 0.02), ("0.05 ms", 0.02)])
 def test_friction_of_a_crank_that_rings_after_a_blow(sensors, step, open_part):
     """The rod rings with 1 ms and less, so that joints turn round within steps, far beyond the slip of their friction. What is open
-    is the trapezoidal rule for forces that change their sign, which shorter steps make less (0.09, 0.03 J; 0.01 J at
-    0.02 ms). As long as such springs held all that they were strained, 0.43 and 0.22 J of 1.09 J were."""
+    is what the method damps of it. By the trapezoidal rule 0.22, 0.09 and 0.02 J of 1.09 J were; as long as such springs held all
+    that they were strained, 0.43 and 0.22 J at 0.1 and 0.05 ms."""
     out = sensors(STRUCK_CRANK.replace("STEP", step))
     assert abs(out["balance"]).max() < open_part * out["work"][-1]
-    # 0.50 J at 0.02 ms. Steps of 0.1 ms leave its finest vibrations out; 0.76 and 0.67 J before.
-    assert out["rubbed"][-1] == pytest.approx(0.50, rel=0.2)
+    # 0.48 J at 0.02 ms. Long steps leave its finest vibrations out, and blows take what friction does not: 0.39 J at 0.1 ms.
+    assert 0.2 < out["rubbed"][-1] < 0.6
+    if step != "0.2 ms":
+        assert out["rubbed"][-1] == pytest.approx(0.483, rel=0.2)

@@ -184,7 +184,8 @@ int JointSet::add_response(const Law& law, const loads::Sight& sight, LawEnds* e
   }
   const loads::CoordinateResponse response = citing(load, [&] { return law.along->answer(sight); });
   add_along(sight.coordinate.J, response.force, wrenches);
-  if (ends != nullptr && law.has_state) ends->laws[law.load] = {true, response.strain};
+  if (ends != nullptr && law.has_state)
+    ends->laws[law.load] = {true, response.strain, response.force};
   return count(response);
 }
 

@@ -17,6 +17,7 @@ struct LawEnds {
   struct Law {
     bool is_known = false;
     double state = 0;  ///< the only one that it has
+    double force = 0;  ///< along its coordinate [N] or [N m]
   };
   std::vector<Coordinate> coordinates;  ///< one per Model::coordinates
   std::vector<Law> laws;                ///< one per Model::loads

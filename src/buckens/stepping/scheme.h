@@ -132,6 +132,11 @@ class Scheme {
     }
   }
 
+  /// s of the change of a velocity over the step, h ((1 − s) a + s a⁺), a the algorithmic
+  /// acceleration.
+  double share_of_end() const {
+    return has_algorithmic() ? gamma_ : method == Method::wilson ? 0.5 : 1.0;
+  }
   /// Whether separate algorithmic accelerations are carried along with the true ones.
   bool has_algorithmic() const {
     return method == Method::generalized_alpha || method == Method::hht;

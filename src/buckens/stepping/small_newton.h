@@ -71,6 +71,10 @@ class SmallNewton {
   /// Forces at the evaluation instant of the last iteration.
   const dynamics::Forces& forces() const { return forces_; }
   const std::vector<dynamics::BodyMotion>& motions_at_end() const { return end_; }
+  /// Motions at the instant at which the equations hold.
+  const std::vector<dynamics::BodyMotion>& at_evaluation() const {
+    return scheme_.weight == 1.0 ? end_ : evaluation_;
+  }
   const std::vector<int>& rows_in_use() const { return rows_in_use_; }
   /// What laws on joints remember if the step ends here; null: not known.
   const dynamics::LawEnds* law_ends() const { return scheme_.weight == 1.0 ? &law_ends_ : nullptr; }
@@ -118,10 +122,6 @@ class SmallNewton {
   std::unique_ptr<dynamics::MultiplierCondensation> condense_without_sticking(double t);
   void solve_multipliers(double t);
   Change update(std::vector<BodyStep>& bodies, linalg::Vector& lambda);
-  /// Motions at the instant at which the equations hold.
-  const std::vector<dynamics::BodyMotion>& at_evaluation() const {
-    return scheme_.weight == 1.0 ? end_ : evaluation_;
-  }
   /// Replaces ġ by that without position corrections and with shapes as at the start of the step: a
   /// changing quasi-static shape must not jolt the mechanism, Δλ ~ m w Δy/h.
   void keep_shapes_in_rates(const std::vector<BodyStep>& bodies, double t_end);

@@ -58,6 +58,8 @@ struct ShapeAndRates {
   linalg::Vector d, d_dot;
 };
 
+class FrictionOfStep;
+
 /// Effort and residuals of one step.
 struct StepReport {
   int newton_iterations = 0;
@@ -82,6 +84,8 @@ struct StepReport {
   /// Per body, shape and rates at the end of the step before impacts whose loss is the energy that
   /// all bodies lose; empty if there are none. Valid until the next step.
   std::span<const ShapeAndRates> before_blows{};
+  /// Dry friction in joints; null if there is none, or not known. Valid until the next step.
+  const FrictionOfStep* friction = nullptr;
   double impact_rest = 0;  ///< from their mean instant to the end of the step [s]
   /// Whether accelerations have jumped and have to be computed afresh at the end of the step:
   /// because of impacts, or because the stands of rigid rows have changed.

@@ -72,6 +72,7 @@ Stepper::Stepper(const model::Model& model, const StepSettings& settings,
       scheme_(settings.method, settings.step, settings.method_parameter()),
       forecast_(scheme_, model.length),
       forecasts_(!model.may_have_rigid_rows()),
+      friction_(model, scheme_),
       bodies_(model.bodies.size()) {
   for (const body::Body& body : model.bodies) {
     auto op = factorised(body, scheme_, operators_, settings_);
@@ -305,6 +306,15 @@ void Stepper::form_next_state(const model::State& state) {
   }
 }
 
+void Stepper::take_friction(double t, StepReport& report) {
+  if (friction_.empty()) return;
+  dynamics::Circumstances around = newton_->around();
+  if (!newton_->forces().signals.values.empty()) around.signals = &newton_->forces().signals.values;
+  friction_.take({scheme_.evaluation_time(t), newton_->at_evaluation()},
+                 {t + scheme_.h, newton_->motions_at_end()}, around, newton_->law_ends());
+  report.friction = &friction_;
+}
+
 void Stepper::take_over_coupling() {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (!flexible_[b] || !bodies_[b].terms.are_lagged()) continue;
@@ -407,6 +417,7 @@ StepReport Stepper::take_general_step(const model::State& state) {
     take_over_coupling();
   }
   form_next_state(state);
+  take_friction(state.t, report);
   report.must_settle = newton_->rigid_rows_changed();
   report.has_undecided_rows = newton_->has_accepted_stands();
   report.ends_have_turned = newton_->ends_have_turned();

@@ -11,6 +11,7 @@
 #include "buckens/stepping/coupling_rounds.h"
 #include "buckens/stepping/factor_group.h"
 #include "buckens/stepping/forecast.h"
+#include "buckens/stepping/friction_of_step.h"
 #include "buckens/stepping/impacts.h"
 #include "buckens/stepping/neglected_terms.h"
 #include "buckens/stepping/small_newton.h"
@@ -139,6 +140,8 @@ class Stepper {
   /// The parts of a state besides bodies and memory.
   void form_next_instant(const model::State& state);
   void form_next_state(const model::State& state);
+  /// Keeps what friction in joints has done, as it was last iterated.
+  void take_friction(double t, StepReport& report);
   /// Applies the impacts of what has run into rigid stops, at the end of the step.
   void take_impacts(StepReport& report);
   void add_jump(std::size_t b, const BodyJump& jump, dynamics::BodyMotion& motion);
@@ -159,6 +162,7 @@ class Stepper {
   Forecast forecast_;
   bool forecasts_;  // no rows that come and go, which a forecast does not know
   std::unique_ptr<Impacts> impacts_;
+  FrictionOfStep friction_;
   std::vector<dynamics::BodyMotion> at_start_;  // of the step, for impacts_
   std::vector<ShapeAndRates> before_blows_;     // per body, at the end of the last step with any
   std::unique_ptr<StrandStep> strand_;          // null: never

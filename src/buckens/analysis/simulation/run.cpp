@@ -61,7 +61,7 @@ void SimulationRun::step() {
   if (!report.impact_shares.empty()) {
     work_->add_impacts(before_, state, report);
   } else {
-    work_->add(state, &before_);
+    work_->add(state, &before_, &report);
   }
   statistics_->add_touches(work_->of_loads(), state.t - before_.t);
   work_->add_parameters(before_, state);

@@ -55,6 +55,7 @@ void WorkAccount::visit_saved(const base::SaveVisit& visit) {
     load.number("rubbed", loads_before_[k].rubbed);
   }
   parameters_.visit_saved(visit.inside("parameters"));
+  friction_->visit_saved(visit.inside("friction"));
   visit.vector("parts_start", parts_start_, parts_start_.size());
   const base::SaveVisit start = visit.inside("start");
   start.number("kinetic", start_.kinetic);

@@ -36,6 +36,7 @@ WorkAccount::WorkAccount(const model::Model& model, const model::State& start, b
   forces_.account(model);
   find_powers(start, before_);
   loads_before_ = forces_.of_loads;
+  friction_.emplace(model, start, loads_before_);
   work_.parts = linalg::Vector::Zero(static_cast<Eigen::Index>(parts_.size()));
   parts_.set_stored(loads_before_, work_.parts);
   parts_start_ = work_.parts;
@@ -110,6 +111,7 @@ void WorkAccount::add_shares(std::span<const ParameterWork::Share> shares) {
 
 void WorkAccount::take_event(const model::State& state, double gained, double lost) {
   take_inputs(state);
+  friction_->restart(state, loads_before_);
   parameters_.restart(state);
   lambda_before_ = lambda_start_ = state.lambda;
   lambda_time_ = state.lambda_time;
@@ -141,7 +143,22 @@ const std::vector<double>* WorkAccount::unsampled(const model::State& before,
   return &unsampled_.values;
 }
 
-void WorkAccount::add(const model::State& state, const model::State* before) {
+double WorkAccount::take_friction(const model::State& state, const stepping::StepReport* report,
+                                  double h, const FrictionWork::Blows* blows) {
+  if (report == nullptr || report->friction == nullptr) return 0.0;
+  const std::span<const double> lost =
+      friction_->add(*report->friction, h, state, forces_.of_loads, blows);
+  double sum = 0;
+  for (std::size_t n = 0; n < lost.size(); ++n) {
+    double& mean = means_[friction_->loads()[n]].lost;
+    sum += lost[n] / h - mean;
+    mean = lost[n] / h;
+  }
+  return sum;
+}
+
+void WorkAccount::add(const model::State& state, const model::State* before,
+                      const stepping::StepReport* report) {
   const std::vector<double>* signals = before != nullptr ? unsampled(*before, state) : nullptr;
   find_powers(state, now_, signals);
   Powers mean;
@@ -151,6 +168,7 @@ void WorkAccount::add(const model::State& state, const model::State* before) {
   add_halves(forces_.of_loads, &dynamics::LoadPower::supplied, means_);
   add_halves(forces_.of_loads, &dynamics::LoadPower::lost, means_);
   add_halves(forces_.of_loads, &dynamics::LoadPower::rubbed, means_);
+  mean.damping += take_friction(state, report, state.t - t_);
   add_step(state, mean, nullptr, RatesAtEnd::are_smooth);
   if (signals != nullptr) take_inputs(state);
 }
@@ -181,6 +199,10 @@ void WorkAccount::add_impacts(const model::State& before, const model::State& st
   add_halves(forces_.of_loads, &dynamics::LoadPower::lost, means_);
   add_halves(forces_.of_loads, &dynamics::LoadPower::rubbed, means_);
   mean.damping = 0.5 * (before_.damping + now_.damping - landed(state));
+  // Otherwise all that bodies have less of in their jumps is the loss.
+  const FrictionWork::Blows blows{before, impacts.impact_rest};
+  mean.damping +=
+      take_friction(state, &impacts, h, impacts.before_blows.empty() ? &blows : nullptr);
   add_step(state, mean, &impacts, RatesAtEnd::have_jumped);
   if (signals != nullptr) take_inputs(state);
 }

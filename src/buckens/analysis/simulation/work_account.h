@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "buckens/analysis/simulation/damping_work.h"
+#include "buckens/analysis/simulation/friction_work.h"
 #include "buckens/analysis/simulation/parameter_work.h"
 #include "buckens/base/saved_values.h"
 #include "buckens/dynamics/joint_set.h"
@@ -19,7 +21,8 @@ namespace buckens::analysis {
 
 /// Integrates the work of loads, drives and dampers over the steps of a run: trapezoidal rule,
 /// so its error is of order h² like that of the steps. Dissipation in meshes comes from
-/// DampingWork. Also keeps a separate account of each load, drive, damped body and impact; these
+/// DampingWork, that of friction in joints, whose forces change their sign within steps, from
+/// FrictionWork. Also keeps a separate account of each load, drive, damped body and impact; these
 /// add up to the total within rounding.
 class WorkAccount {
  public:
@@ -29,7 +32,9 @@ class WorkAccount {
   /// Adds the work between the last state and this one.
   /// @param before the last state: if samples are taken at the end of the step, what follows them
   ///        jumps after it; null: nothing jumps
-  void add(const model::State& state, const model::State* before = nullptr);
+  /// @param report of the step; null: friction in joints by the trapezoidal rule, too
+  void add(const model::State& state, const model::State* before = nullptr,
+           const stepping::StepReport* report = nullptr);
   /// The same for a step with impacts: rates jump within it, so those at its ends do not determine
   /// the displacement, and the power of loads is formed with the mean rates.
   /// @param before the last state, @param impacts energy taken by the impacts of the step
@@ -106,11 +111,17 @@ class WorkAccount {
   /// Power of friction in contacts that closed in an impact of this step [W]: within the step it is
   /// part of the loss of the impact. Takes it out of means_.
   double landed(const model::State& state);
+  /// Puts what friction in joints has lost over a step in the place of its mean power in means_.
+  /// @param h of the step [s], @param blows see FrictionWork::add()
+  /// @return what this adds to the mean power [W]
+  double take_friction(const model::State& state, const stepping::StepReport* report, double h,
+                       const FrictionWork::Blows* blows = nullptr);
 
   const model::Model& model_;
   dynamics::JointSet joints_;
   std::vector<DampingWork> meshes_;
   ParameterWork parameters_;
+  std::optional<FrictionWork> friction_;
   bool has_samples_;
   dynamics::SignalValues unsampled_;
   dynamics::Forces forces_;

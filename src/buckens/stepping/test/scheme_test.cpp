@@ -113,6 +113,24 @@ TEST(Scheme, ConvergesWithOrderTwo) {
   }
 }
 
+TEST(Scheme, VelocitiesMoveByTheMeanOfAlgorithmicAccelerations) {
+  const double h = 0.1;
+  for (const Scheme& scheme :
+       {Scheme(Method::generalized_alpha, h, 0.6), Scheme(Method::hht, h, -0.2),
+        Scheme(Method::newmark, h, 0.0), Scheme(Method::wilson, h, 1.5)}) {
+    const double rate = 0.3, acceleration = -2.0, change = 0.07;
+    const double algorithmic = scheme.has_algorithmic() ? -1.3 : acceleration;
+    const History<double> history = scheme.history(rate, acceleration, algorithmic);
+    const double end_rate = scheme.end_rate * change + history.velocity;
+    const double carried = scheme.carried_acceleration(
+        acceleration, scheme.acceleration_rate * change + history.acceleration);
+    const double after = scheme.algorithmic(acceleration, algorithmic, carried);
+    const double s = scheme.share_of_end();
+    EXPECT_NEAR(end_rate - rate, h * ((1.0 - s) * algorithmic + s * after), 1e-14)
+        << to_string(scheme.method);
+  }
+}
+
 TEST(Scheme, RefusesWhatIsNoStep) {
   EXPECT_THROW(Scheme(Method::newmark, 0.0, 0.9), InputError);
   EXPECT_THROW(Scheme(Method::newmark, std::numeric_limits<double>::quiet_NaN(), 0.9), InputError);
