@@ -45,6 +45,7 @@ StaticDescent::StaticDescent(const model::Model& model, const dynamics::MassMetr
     : model_(model),
       metric_(metric),
       rest_(rest),
+      landings_(rest),
       compliance_(compliance),
       t_(t),
       point_(std::move(start)),
@@ -152,7 +153,7 @@ void StaticDescent::run() {
       check_dependent_rows();
       if (is_balanced()) return;
     }
-    if (++iterations_ > kMaxDescentIterations) break;
+    if (++iterations_ > kMaxDescentIterations + num_landings_) break;
     const Vector step = find_step();
     advance(step);
     // The next step is much like this one.
@@ -211,7 +212,23 @@ Vector StaticDescent::find_step() {
 /// it.
 bool StaticDescent::solve_step(Vector& step, double give) {
   const RestStands before = point_.rest;
+  rest_.end_landings(point_.rest);
   rest_.follow_contacts(balance_.rest, point_.rest);
+  do {
+    if (!solve_with_pivots(step, give, before)) return false;
+  } while (lands(step));
+  return true;
+}
+
+/// Holds contacts that begin to press in a step. @return whether there are any more
+bool StaticDescent::lands(const Vector& step) {
+  const double share = std::min(1.0, kLongestStep / motion_size(step));
+  return landings_.hold(balance_.rest, motions_at(model_, system_->moved(point_, share * step)), t_,
+                        point_.rest);
+}
+
+/// @param before stands to return to if rows do not settle
+bool StaticDescent::solve_with_pivots(Vector& step, double give, const RestStands& before) {
   RestPivots pivots(*system_);
   for (auto outcome = RestPivots::Outcome::moved; outcome != RestPivots::Outcome::settled;) {
     residual_ = system_->residual(point_, balance_);
@@ -281,9 +298,20 @@ void StaticDescent::advance(const Vector& step) {
       if (halving == 8) throw;  // a force law that cannot be evaluated anywhere near
     }
   }
+  const auto way = [&](double share) {
+    return motions_at(model_, system_->moved(from, share * factor * step));
+  };
+  const std::optional<double> landing = landings_.find(way, t_);
+  if (landing) {
+    factor *= *landing;
+    point_ = system_->moved(from, factor * step);
+    evaluate();
+    ++num_landings_;
+  }
   for (std::size_t b = 0; b < turned_.size(); ++b) {
     turned_[b] += factor * system_->frame_step(b, step).head<3>();
   }
+  if (landing) return;  // the step as such was neither too long nor too short
   const double after = system_->largest(residual_, Share::frame);
   const double size = motion_size(factor * step);
   if (size > kLongStep) {

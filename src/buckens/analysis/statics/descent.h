@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "buckens/analysis/statics/landings.h"
 #include "buckens/analysis/statics/stability.h"
 #include "buckens/analysis/statics/system.h"
 #include "buckens/dynamics/mass_metric.h"
@@ -62,6 +63,8 @@ class StaticDescent {
   bool factorise(const linalg::SparseMatrix& tangent);
   linalg::Vector find_step();
   bool solve_step(linalg::Vector& step, double give = StaticSystem::kGive);
+  bool solve_with_pivots(linalg::Vector& step, double give, const RestStands& before);
+  bool lands(const linalg::Vector& step);
   void share_loads();
   RestStands loaded_rows() const;
   bool leads_uphill(const linalg::SparseMatrix& tangent, const linalg::Vector& step) const;
@@ -76,6 +79,7 @@ class StaticDescent {
   const model::Model& model_;
   const dynamics::MassMetric& metric_;
   RestRows& rest_;
+  Landings landings_;
   const std::vector<const ElasticCompliance*>& compliance_;
   double t_;
   StaticPoint point_, start_;
@@ -92,6 +96,7 @@ class StaticDescent {
   double force_rounding_ = 0;  // of stiff springs [N]
   double no_force_ = 0;        // negligible force, see set_scales() [N]
   int iterations_ = 0;
+  int num_landings_ = 0;              // iterations that ended where a contact begins to press
   double least_residual_ = HUGE_VAL;  // scaled, so far
   int without_gain_ = 0;              // iterations since it has fallen
   double way_without_gain_ = 0;       // sum of the steps since then

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "buckens/analysis/statics/tolerances.h"
 #include "buckens/body/body_lengths.h"
 #include "buckens/dynamics/contact_groups.h"
 #include "buckens/dynamics/forces.h"
@@ -19,7 +20,6 @@ using linalg::Vector;
 
 namespace {
 
-constexpr double kDifference = 1e-5;
 constexpr double kAhead = 1.0;  // [s]; bodies at rest go nowhere in it
 
 using BodyLists = std::vector<std::vector<std::size_t>>;

@@ -119,13 +119,8 @@ void RestRows::evaluate_pair(std::size_t k, const std::vector<dynamics::BodyMoti
   const model::MarkerId &first = group.members[i].marker, &second = group.members[j].marker;
   const auto first_at = dynamics::evaluate_marker(model_, first, motions);
   const auto second_at = dynamics::evaluate_marker(model_, second, motions);
-  if (k == 0 || rows_[k - 1].pair != row.pair) {
-    soft.clear();
-    group.contact(i, j).append_tangent({t, first_at.motion, second_at.motion}, soft);
-  }
+  find_soft_rows(k, group.contact(i, j), {t, first_at.motion, second_at.motion}, soft, out);
   const spatial::PairRow& J = soft[static_cast<std::size_t>(row.part)].J;
-  const auto spot = static_cast<std::size_t>(row.part - row.part % RestRow::kOfSpot);
-  out.presses[k] = soft[spot].stiffness > 0.0 ? 1 : 0;
   out.rows.push_back(dynamics::system_row(model_, first, first_at, second, second_at, J));
   out.values.push_back(0.0);
   out.pushes.push_back({J.segment<3>(6).transpose(), J.segment<3>(9).transpose()});

@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "buckens/analysis/statics/held_spots.h"
 #include "buckens/analysis/statics/rest_stop.h"
+#include "buckens/analysis/statics/tolerances.h"
 #include "buckens/dynamics/travel.h"
 #include "buckens/loads/ball_friction.h"
 #include "buckens/loads/contact.h"
@@ -158,6 +160,7 @@ void RestRows::evaluate(const std::vector<dynamics::BodyMotion>& motions, double
   out.pushes.clear();
   out.contacts.assign(rows_.size(), {});
   out.presses.assign(rows_.size(), 0);
+  out.nears.assign(rows_.size(), 0);
   std::vector<loads::SoftRow> soft;
   dynamics::SignalValues signals;
   const dynamics::Circumstances around =
@@ -174,11 +177,8 @@ void RestRows::evaluate(const std::vector<dynamics::BodyMotion>& motions, double
     const loads::Sight sight = dynamics::sight_of(model_, row.load, t, around, ends);
     spatial::PairRow J = sight.coordinate.J;
     if (load.coordinate < 0) {
-      soft.clear();
-      load.element->append_tangent(sight, soft);
+      find_soft_rows(k, *load.element, sight, soft, out);
       J = soft[static_cast<std::size_t>(row.part)].J;
-      const auto spot = static_cast<std::size_t>(row.part - row.part % RestRow::kOfSpot);
-      out.presses[k] = soft[spot].stiffness > 0.0 ? 1 : 0;
     }
     out.rows.push_back(rest_row_of(model_, load, ends, J));
     out.values.push_back(sight.coordinate.value);
@@ -186,6 +186,27 @@ void RestRows::evaluate(const std::vector<dynamics::BodyMotion>& motions, double
     if (row.kind == Kind::one_sided) {
       out.contacts[k] = stop_at(model_, row).contact(sight.coordinate.value);
     }
+  }
+}
+
+void RestRows::find_soft_rows(std::size_t k, const loads::ForceElement& law,
+                              const loads::Sight& sight, std::vector<loads::SoftRow>& soft,
+                              RestValues& out) const {
+  const RestRow& row = rows_[k];
+  const bool is_known = k > 0 && rows_[k - 1].load == row.load && rows_[k - 1].pair == row.pair;
+  if (is_known) return;
+  soft.clear();
+  law.append_tangent(sight, soft);
+  if (!row.is_elastic()) return;
+  const double reach = kDifference * model_.length;
+  HeldSpots spots;
+  spots.look(dynamic_cast<const loads::Contact&>(law), sight);
+  spots.level(reach, soft);
+  for (std::size_t i = k; i < rows_.size() && rows_[i].load == row.load; ++i) {
+    if (rows_[i].pair != row.pair) break;
+    const auto spot = static_cast<std::size_t>(rows_[i].part / RestRow::kOfSpot);
+    out.presses[i] = soft[RestRow::kOfSpot * spot].stiffness > 0.0 ? 1 : 0;
+    out.nears[i] = spots.is_near(spot, reach) ? 1 : 0;
   }
 }
 

@@ -30,6 +30,9 @@ struct RestRow {
   int pair = -1;          ///< of elastic contacts of many bodies: which pair, −1 of all others
   bool is_angle = false;  ///< its coordinate, else a length
   double start = 0;       ///< of `held`: the value that it holds [m] or [rad]
+
+  /// Friction of an elastic contact along its surface.
+  bool is_elastic() const { return kind == Kind::along && across < 0; }
 };
 
 /// What frozen friction of an elastic contact holds with.
@@ -40,9 +43,11 @@ struct HeldContact {
 };
 
 /// Which rows are closed, and their forces: RowStand::regime is the end of a one-sided row, 1 for
-/// other closed rows, 0 if open. A row that has been opened keeps its force until the next step
+/// other closed rows, 0 if open; kLanding for a row along the surface of an elastic contact that
+/// begins to press in a step. A row that has been opened keeps its force until the next step
 /// removes it.
 using RestStands = std::vector<loads::RowStand>;
+inline constexpr int kLanding = 2;
 
 /// How many of the rows belong to a pair of a rigid contact group. The rows of all near pairs
 /// follow all others.
@@ -60,6 +65,7 @@ struct RestValues {
   std::vector<spatial::Wrench> pushes;    ///< on the second marker per unit force of the row
   std::vector<loads::RigidLaw::Contact> contacts;  ///< of one-sided rows: the nearer end
   std::vector<char> presses;                       ///< of elastic contacts: whether the spot does
+  std::vector<char> nears;  ///< of elastic contacts: whether the spot is open, but felt
 };
 
 /// All rows of force laws that hold a mechanism at rest. Theory: docs/theory/12-static-paths.md §5.
@@ -113,6 +119,8 @@ class RestRows {
   /// Friction along a surface holds while the normal row is closed and touched before the step; for
   /// elastic contacts, where they overlap.
   void follow_contacts(const RestValues& values, RestStands& stands) const;
+  /// Ends what holds because it lands: at the beginning of a step.
+  void end_landings(RestStands& stands) const;
   /// What frozen friction of elastic contacts holds with; those without force are left out.
   std::vector<HeldContact> held_contacts(const RestValues& values, const RestStands& stands) const;
   /// Opens what is closed without a noticeable force.
@@ -141,6 +149,9 @@ class RestRows {
   void add_pairs(std::size_t load);
   void evaluate_pair(std::size_t k, const std::vector<dynamics::BodyMotion>& motions, double t,
                      std::vector<loads::SoftRow>& soft, RestValues& out) const;
+  /// Rows of the law of row k in `soft`; those along faces of an elastic contact are in one plane.
+  void find_soft_rows(std::size_t k, const loads::ForceElement& law, const loads::Sight& sight,
+                      std::vector<loads::SoftRow>& soft, RestValues& out) const;
   double length_of(std::size_t k) const { return rows_[k].is_angle ? 1.0 : model_.length; }
 
   const model::Model& model_;

@@ -44,18 +44,26 @@ void RestRows::share(const RestValues& values, RestStands& stands) const {
     }
     stands[k].regime = values.contacts[k].regime;
   }
+  end_landings(stands);
   follow_contacts(values, stands);
 }
 
 void RestRows::follow_contacts(const RestValues& values, RestStands& stands) const {
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     if (rows_[k].kind != Kind::along) continue;
-    if (rows_[k].across < 0) {
-      stands[k].regime = values.presses[k];
+    if (rows_[k].is_elastic()) {
+      const bool lands = values.nears[k] != 0 && stands[k].regime == kLanding;
+      stands[k].regime = lands ? kLanding : values.presses[k];
       continue;
     }
     const auto across = static_cast<std::size_t>(rows_[k].across);
     stands[k].regime = stands[across].regime != 0 && touches(across, values) ? 1 : 0;
+  }
+}
+
+void RestRows::end_landings(RestStands& stands) const {
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    if (rows_[k].is_elastic() && stands[k].regime == kLanding) stands[k].regime = 0;
   }
 }
 
@@ -65,7 +73,7 @@ std::vector<HeldContact> RestRows::held_contacts(const RestValues& values,
   for (std::size_t k = 0, end = 0; k < rows_.size(); k = end) {
     const RestRow& row = rows_[k];
     end = k + 1;
-    if (row.kind != Kind::along || row.across >= 0) continue;
+    if (!row.is_elastic()) continue;
     while (end < rows_.size() && rows_[end].load == row.load && rows_[end].pair == row.pair) ++end;
     HeldContact held{row.load, std::nullopt, {}};
     if (row.pair >= 0) held.pair = pair(k);

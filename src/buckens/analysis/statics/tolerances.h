@@ -11,4 +11,8 @@ inline constexpr double kPositionRounding = 4e-15;
 /// Of the model's length: a gap of dependent equations that counts as closed.
 inline constexpr double kDependentGap = 1e-9;
 
+/// Of lengths [share of the model's length] and angles [rad]: forces are differenced over twice of
+/// it, so that springs of contacts that are open by less are felt.
+inline constexpr double kDifference = 1e-5;
+
 }  // namespace buckens::analysis
