@@ -12,6 +12,7 @@
 #include "buckens/stepping/friction_impulses.h"
 #include "buckens/stepping/gap_of_step.h"
 #include "buckens/stepping/mesh_partners.h"
+#include "buckens/stepping/rigid_rows.h"
 #include "buckens/stepping/step_failure.h"
 #include "buckens/stepping/tooth_space.h"
 
@@ -27,6 +28,26 @@ namespace {
 constexpr double kSamePlace = 0.1;
 // Overlaps of this fraction of the size of positions, or [rad], are rounding.
 constexpr double kNoGap = 1e-14;
+// What joints leave of the response along a row, as a fraction of that of its own bodies: less is
+// rounding.
+constexpr double kYields = 1e-12;
+
+[[noreturn]] void refuse_unyielding(const model::Model& model) {
+  const auto& bodies = model.bodies;
+  const auto quasi_static = std::find_if(bodies.begin(), bodies.end(), [](const body::Body& body) {
+    return body.is_flexible() && body.flexible->is_quasi_static;
+  });
+  if (quasi_static == bodies.end()) {
+    throw StepFailure(
+        "no impulse stops what strikes it, because joints and drives hold all that it could move; "
+        "give it a `stiffness`, or drive with a limited force");
+  }
+  throw StepFailure(fmt::format(
+      "no impulse stops what strikes it, because joints and drives hold all that it could move, "
+      "and the quasi-static body \"{}\" does not yield to a blow; give it a `stiffness`, drive "
+      "with a limited force, or make the body `flexibility: elastic`",
+      quasi_static->name));
+}
 
 }  // namespace
 
@@ -152,6 +173,11 @@ bool Impacts::strike(const std::vector<dynamics::BodyMotion>& then,
                      double t) {
   try {
     const linalg::SparseMatrix D = answers();
+    for (std::size_t k = 0; k < touches_.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      const double own = own_compliance(touches_[k].row, compliance_);
+      if (touches_[k].strikes && !(D.coeff(i, i) > kYields * own)) refuse_unyielding(model_);
+    }
     std::vector<Eigen::Index> jammed;
     Vector P = solve(D, &jammed);
     if (!jammed.empty()) {

@@ -344,8 +344,11 @@ void SmallNewton::fail(double t, const StepReport& report, const char* what) con
   }
   throw StepFailure(fmt::format(
       "step at t = {:.6g} s failed after {} iterations: {} (worst at {}); use a smaller step than "
-      "{:.3g} s, or look for a lock-up or a dead centre of the mechanism there",
-      t, report.newton_iterations, what, where, scheme_.h));
+      "{:.3g} s, or look for a lock-up or a dead centre of the mechanism there{}",
+      t, report.newton_iterations, what, where, scheme_.h,
+      has_quasi_static_ ? "; if loads of a quasi-static body change much with its shape, stiffen "
+                          "it or make it `flexibility: elastic`"
+                        : ""));
 }
 
 }  // namespace buckens::stepping

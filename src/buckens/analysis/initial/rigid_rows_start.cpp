@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "buckens/analysis/initial/acceleration.h"
 #include "buckens/analysis/initial/quasi_static_start.h"
 #include "buckens/analysis/initial/rough_contacts.h"
 #include "buckens/base/errors.h"
@@ -130,6 +131,27 @@ const std::string& restless_contact(const model::Model& model, const linalg::Vec
   return worst->name;
 }
 
+/// Accelerations with the rows as they stand. Rows that contradict each other, like a motor that
+/// goes on and the stop that it runs against, have forces that no quasi-static body takes: its
+/// shape is then left as it is until one of them has let go.
+/// @return whether shapes have followed the forces
+bool settle_shapes(const model::Model& model, const dynamics::MassMetric& metric,
+                   const std::vector<int>& rows_in_use, model::State& state) {
+  if (model.num_rigid_rows() == 0 || !has_quasi_static_bodies(model)) {
+    settle_accelerations(model, metric, rows_in_use, state);
+    return true;
+  }
+  const model::State before = state;
+  try {
+    settle_accelerations(model, metric, rows_in_use, state);
+    return true;
+  } catch (const NumericalError&) {
+    state = before;
+    compute_accelerations(model, metric, rows_in_use, state);
+    return false;
+  }
+}
+
 /// What kept the rounds from coming to an end.
 struct Unrest {
   std::string moved;    ///< names of the loads that moved in the last round
@@ -147,11 +169,13 @@ bool settle_in_rounds(const model::Model& model, const dynamics::MassMetric& met
   SettledMotion motion(model);
   for (int round = 0; round < kMostRowRounds; ++round) {
     const linalg::Vector before = state.memory.laws;
-    settle_accelerations(model, metric, rows_in_use, state);
+    const bool do_shapes_follow = settle_shapes(model, metric, rows_in_use, state);
     if (model.num_rigid_rows() == 0) return true;
     unrest.moved = move_rows(model, rough, released, state);
     const double share = share_of(round);
     if (!unrest.moved.empty()) continue;
+    // No row lets go: it says why it fails.
+    if (!do_shapes_follow) settle_accelerations(model, metric, rows_in_use, state);
     if (!is_rough || motion.look(state, share)) return true;
     unrest.contact = restless_contact(model, before, state.memory.laws);
     if (share < 1.0) take_back(model, before, 1.0 - share, state.memory.laws);
@@ -213,6 +237,7 @@ bool hold_over_instant(RoughContacts& contacts, model::State& state) try {
 
 void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& metric,
                        const std::vector<int>& rows_in_use, model::State& state) {
+  let_go_of_torn_motors(model, state);
   Unrest unrest;
   if (find_rough_contact(model) == model.loads.end()) {
     if (settle_in_rounds(model, metric, rows_in_use, nullptr, state, unrest)) return;
