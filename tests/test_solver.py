@@ -107,6 +107,30 @@ def test_unknown_options_of_petsc_are_named(buckens):
 
 
 @iterates
+@pytest.mark.parametrize("options, words", [
+    # Applied once, these preconditioners gave motions that were wrong by more than their own size.
+    ("-ksp_type preonly", ["-ksp_type preonly", "does not solve the equations", "-pc_type cholesky"]),
+    ("-ksp_type preonly -pc_type jacobi", ["does not solve the equations"]),
+    ("-ksp_type preonly -pc_type icc", ["does not solve the equations"]),
+    # Without a norm no solve iterated at all; with another one it ended anywhere.
+    ("-ksp_norm_type none", ["energy norm", "-ksp_norm_type"]),
+    ("-ksp_norm_type unpreconditioned", ["energy norm", "-ksp_norm_type"]),
+    # PETSc reads only what has a dash.
+    ("pc_type hypre", ["\"pc_type\" is neither an option"]),
+    ("-pc_type jacobi pc_view", ["\"pc_view\" is neither an option"])])
+def test_options_of_petsc_that_would_not_solve_are_refused(buckens, options, words):
+    buckens("run", BLOCKS, "--set", f"bodies.block.solver={{petsc: \"{options}\"}}").must(4, "block", *words, "correct the options of PETSc")
+
+
+@iterates
+def test_factors_of_petsc_solve(run):
+    expected, _ = run("direct")
+    for options in ("-ksp_type preonly -pc_type lu", "-ksp_type preonly -pc_type redundant", "-pc_type lu"):
+        found, _ = run("found", "--set", f"bodies.block.solver={{petsc: \"{options}\"}}")
+        assert largest_difference(found, expected) < 1e-8, options
+
+
+@iterates
 def test_the_tutorial(buckens, tmp_path):
     page = (SOURCE / "docs" / "tutorials" / "large.md").read_text()
     (tmp_path / "cube.yaml").write_text(re.search(r"```yaml\n(.*?)```", page, re.DOTALL)[1])

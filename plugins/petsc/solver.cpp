@@ -3,13 +3,15 @@
 // say: MUMPS, hypre, …
 #include "solver.h"
 
+#include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <sstream>
 #include <vector>
 
 #include <malloc.h>
 #include <petscblaslapack.h>
+
+#include "options.h"
 
 namespace buckens_petsc {
 
@@ -43,54 +45,6 @@ PetscErrorCode has_converged(KSP, PetscInt iteration, PetscReal norm, KSPConverg
     *verdict = KSP_CONVERGED_RTOL;
   }
   PetscFunctionReturn(0);
-}
-
-/// Those of this plug-in, then the user's, which override them. None of other solvers or of the
-/// environment.
-PetscErrorCode set_options(const char* of_user, PetscOptions options) {
-  PetscFunctionBeginUser;
-  const char* const values[][2] = {
-      {"-pc_gamg_type", "agg"},
-      {"-pc_gamg_agg_nsmooths", "1"},
-      {"-pc_gamg_threshold", "0.0"},
-      {"-pc_gamg_coarse_eq_limit", "1000"},
-      {"-mg_levels_ksp_type", "chebyshev"},
-      {"-mg_levels_ksp_max_it", "2"},
-      {"-mg_levels_pc_type", "jacobi"},
-      {"-mg_levels_esteig_ksp_type", "cg"},
-      {"-mg_levels_esteig_ksp_max_it", "10"},
-  };
-  for (const auto& option : values) PetscCall(PetscOptionsSetValue(options, option[0], option[1]));
-  if (of_user != nullptr) PetscCall(PetscOptionsInsertString(options, of_user));
-  PetscFunctionReturn(0);
-}
-
-/// Whether a text of options contains a name, with the dash.
-bool has_option(const std::string& text, const std::string& name) {
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    if (word == name) return true;
-  }
-  return false;
-}
-
-/// PETSc itself passes over options that nothing has asked for.
-PetscErrorCode refuse_unknown(const char* of_user, PetscOptions options) {
-  PetscInt count = 0;
-  char** names = nullptr;
-  char** values = nullptr;
-  std::string unknown;
-  PetscFunctionBeginUser;
-  if (of_user == nullptr) PetscFunctionReturn(0);
-  PetscCall(PetscOptionsLeftGet(options, &count, &names, &values));
-  for (PetscInt k = 0; k < count; ++k) {
-    const std::string name = std::string("-") + names[k];
-    if (has_option(of_user, name)) unknown += (unknown.empty() ? "" : ", ") + name;
-  }
-  PetscCall(PetscOptionsLeftRestore(options, &count, &names, &values));
-  if (unknown.empty()) PetscFunctionReturn(0);
-  reason = "PETSc has no use for the option " + unknown;
-  PetscFunctionReturn(PETSC_ERR_USER_INPUT);
 }
 
 PetscErrorCode set_motions(const Rows& rows, Mat matrix) {
@@ -146,6 +100,47 @@ PetscErrorCode take_matrix(MPI_Comm comm, const Rows& rows, Mat* matrix) {
   PetscFunctionReturn(0);
 }
 
+/// What is applied once, without iterating, has to solve: a preconditioner would give an answer,
+/// too, but not that of the equations.
+PetscErrorCode require_solution(Solver& solver) {
+  // Relative to the equations, however badly conditioned they are. Of factors it is 1e-16.
+  constexpr double kMostResidual = 1e-11;
+  PetscInt first = 0, end = 0;
+  PetscScalar* values = nullptr;
+  PetscReal size = 0, left = 0, of_matrix = 0, of_x = 0;
+  Vec residual = nullptr;
+  PetscFunctionBeginUser;
+  PetscCall(VecGetOwnershipRange(solver.b, &first, &end));
+  PetscCall(VecGetArrayWrite(solver.b, &values));
+  // All frequencies, neither smooth nor the same in any two variables.
+  for (PetscInt k = first; k < end; ++k) values[k - first] = std::sin(1.0 + 2.39996 * k);
+  PetscCall(VecRestoreArrayWrite(solver.b, &values));
+  PetscCall(KSPSolve(solver.iteration, solver.b, solver.x));
+  PetscCall(VecDuplicate(solver.b, &residual));
+  PetscCall(MatMult(solver.matrix, solver.x, residual));
+  PetscCall(VecAXPY(residual, -1.0, solver.b));
+  PetscCall(VecNorm(residual, NORM_2, &left));
+  PetscCall(VecNorm(solver.b, NORM_2, &size));
+  PetscCall(VecNorm(solver.x, NORM_2, &of_x));
+  PetscCall(MatNorm(solver.matrix, NORM_INFINITY, &of_matrix));
+  PetscCall(VecDestroy(&residual));
+  if (left <= kMostResidual * (size + of_matrix * of_x)) PetscFunctionReturn(0);
+  reason =
+      "-ksp_type preonly applies a preconditioner once, and this one does not solve the equations; "
+      "leave it out to iterate, or take a factor (-pc_type cholesky)";
+  PetscFunctionReturn(PETSC_ERR_USER_INPUT);
+}
+
+/// The iteration ends by an error in the energy norm.
+PetscErrorCode require_energy_norm(const Solver& solver) {
+  KSPNormType norm = KSP_NORM_NATURAL;
+  PetscFunctionBeginUser;
+  PetscCall(KSPGetNormType(solver.iteration, &norm));
+  if (norm == KSP_NORM_NATURAL) PetscFunctionReturn(0);
+  reason = "the error is judged in the energy norm; leave out -ksp_norm_type";
+  PetscFunctionReturn(PETSC_ERR_USER_INPUT);
+}
+
 /// A factor needs the matrix no more.
 PetscErrorCode keep_factor_only(Solver& solver) {
   PC preconditioner = nullptr;
@@ -182,12 +177,15 @@ PetscErrorCode set_up(MPI_Comm comm, Solver& solver) {
   } else {
     PetscCall(KSPSetInitialGuessNonzero(solver.iteration, PETSC_TRUE));
     PetscCall(KSPSetConvergenceTest(solver.iteration, has_converged, &solver, nullptr));
+    PetscCall(require_energy_norm(solver));
   }
   PetscCall(KSPSetUp(solver.iteration));
   PetscCall(KSPSetUpOnBlocks(solver.iteration));
   PetscCall(PCGetFailedReason(preconditioner, &failure));
   if (failure == PC_NOERROR) {
-    if (solver.is_direct) PetscCall(keep_factor_only(solver));
+    if (!solver.is_direct) PetscFunctionReturn(0);
+    PetscCall(require_solution(solver));
+    PetscCall(keep_factor_only(solver));
     PetscFunctionReturn(0);
   }
   reason = failure == PC_FACTOR_OUTMEMORY
@@ -219,6 +217,7 @@ Solver::~Solver() {
 
 PetscErrorCode make_solver(MPI_Comm comm, const Rows& rows, Solver& solver) {
   PetscFunctionBeginUser;
+  PetscCall(refuse_words(rows.options));
   PetscCall(PetscOptionsCreate(&solver.options));
   PetscCall(set_options(rows.options, solver.options));
   // In place of those of the process.
