@@ -11,8 +11,9 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent / "support"))
 from python_module import buckens  # noqa: E402 (found after the path is set)
 
 pytest.importorskip("scipy")
-study = buckens.study
+from buckens.study_distributions import distribution_of  # noqa: E402 (found after the path is set)
 
+study = buckens.study
 
 
 def test_distributions_are_read_with_their_units():
@@ -125,3 +126,27 @@ def test_columns_of_a_table_are_found(tmp_path):
         study.results(tmp_path, "tip.z max")
     with pytest.raises(buckens.InputError, match="does not hold numbers"):
         study.results(tmp_path, "status")
+
+
+@pytest.mark.parametrize("text, a, b, unit", [
+    ("10 mm +- 2 %", 10, 0.2, "mm"), ("10 +- 2 %", 10, 0.2, ""), ("-5 mm +- 2 %", -5, 0.1, "mm"),
+    # Of a quantity that is a percentage itself, the deviation is one, too: not 2 % of 1, with a deviation of 100 %.
+    ("2 % +- 1", 2, 1, "%"), ("2 % +- 0.5 %", 2, 0.5, "%"),
+    # A range has no mean: 20 % is no share of 1.
+    ("1 to 20 %", 1, 20, "%"), ("1 % to 20", 1, 20, "%"), ("0 % to 0.2 %", 0, 0.2, "%")])
+def test_percentages(text, a, b, unit):
+    found = distribution_of("x", text)
+    assert found.parameters == pytest.approx((a, b), rel=1e-15) and found.unit == unit
+
+
+def test_percentages_of_nothing_are_refused():
+    for text in ("2 % +- 1 mm", "2 % to 10 mm", "10 mm to 20 %"):
+        with pytest.raises(buckens.InputError, match="write both in units of one kind"):
+            distribution_of("x", text)
+    assert study.lognormal("10 mm", "5 %").parameters == pytest.approx((10, 0.05), rel=1e-15)
+    for call in (lambda: study.lognormal("10 mm", "5 mm"), lambda: study.lognormal("10 mm", 0)):
+        with pytest.raises(buckens.InputError, match="lognormal: expected .* such as 0.1 or \"10 %\""):
+            call()
+    for call in (lambda: study.uniform(1, np.inf), lambda: study.normal(np.nan, 1)):
+        with pytest.raises(buckens.InputError, match="expected a finite number"):
+            call()

@@ -73,12 +73,15 @@ def normal(mean: Quantity, deviation: Quantity) -> Distribution:
     return Distribution("normal", (a, b), unit)
 
 
-def lognormal(median: Quantity, deviation: float) -> Distribution:
+def lognormal(median: Quantity, deviation: Quantity) -> Distribution:
     """Returns the lognormal distribution; `deviation` is the standard deviation of the logarithm (0.1 is about 10 %)."""
     (a,), unit = _in_one_unit(median)
-    if not (a > 0 and deviation > 0):
-        raise InputError(f"lognormal: expected a median and a deviation above 0, found {median!r} and {deviation!r}")
-    return Distribution("lognormal", (a, deviation), unit)
+    (b,), unit_of_b = _in_one_unit(deviation)
+    b *= _core.quantity(f"1 {unit_of_b}")[2] if unit_of_b == "%" else 1.0
+    if not (a > 0 and b > 0 and unit_of_b in ("", "%")):
+        raise InputError(f"lognormal: expected a median above 0 and a deviation of its logarithm above 0, such as 0.1 or \"10 %\", "
+                         f"found {median!r} and {deviation!r}")
+    return Distribution("lognormal", (a, b), unit)
 
 
 def triangular(low: Quantity, peak: Quantity, high: Quantity) -> Distribution:
@@ -107,7 +110,7 @@ def distribution_of(path: str, given: Any) -> Distribution:
         match = _RANGE.fullmatch(given.strip())
         try:
             if match is not None and match[1] is not None:
-                return normal(_with_unit_of(match[1], match[2]), _with_unit_of(match[2], match[1]))
+                return normal(_mean(match[1], match[2]), _deviation(match[2], match[1]))
             if match is not None:
                 return uniform(_with_unit_of(match[3], match[4]), _with_unit_of(match[4], match[3]))
         except InputError as error:
@@ -117,19 +120,33 @@ def distribution_of(path: str, given: Any) -> Distribution:
 
 
 def _with_unit_of(one: str, other: str) -> str:
-    """Adds a missing unit from the other value, "10 +- 0.1 mm", and resolves percentages of it, "10 mm +- 2 %"."""
-    number, unit, factor, _ = _core.quantity(one)
-    value, with_unit, _, _ = _core.quantity(other)
-    if unit == "%" and with_unit != "%":
-        return f"{abs(value) * number * factor!r} {with_unit}".rstrip()
-    return one if unit or not with_unit or with_unit == "%" else f"{one} {with_unit}"
+    """Adds a missing unit from the other value: "9 to 11 mm", "1 to 20 %"."""
+    _, unit, _, _ = _core.quantity(one)
+    _, missing, _, _ = _core.quantity(other)
+    return one if unit or not missing else f"{one} {missing}"
+
+
+def _mean(text: str, deviation: str) -> str:
+    """Adds a missing unit, "10 +- 0.1 mm", but no percent sign: the percentage is one of the mean."""
+    return text if _core.quantity(deviation)[1] == "%" else _with_unit_of(text, deviation)
+
+
+def _deviation(text: str, mean: str) -> str:
+    """Resolves a percentage of the mean, "10 mm +- 2 %", unless the mean is a percentage itself."""
+    number, unit, factor, _ = _core.quantity(text)
+    value, of_mean, _, _ = _core.quantity(mean)
+    if unit == "%" and of_mean != "%":
+        return f"{abs(value) * number * factor!r} {of_mean}".rstrip()
+    return _with_unit_of(text, mean)
 
 
 def _in_one_unit(*quantities: Quantity) -> Tuple[List[float], str]:
     """Returns numbers in the unit of the first, and that unit."""
     parts = [_core.quantity(text) if isinstance(text, str) else (float(text), "", 1.0, "") for text in quantities]
     _, unit, factor, dimension = parts[0]
-    for text, (_, _, _, other) in zip(quantities, parts):
+    for text, (number, _, _, other) in zip(quantities, parts):
+        if not np.isfinite(number):
+            raise InputError(f"expected a finite number, found {text!r}")
         if other != dimension:
             raise InputError(f"{quantities[0]!r} is in {dimension or 'pure numbers'}, {text!r} in {other or 'pure numbers'}; "
                              "write both in units of one kind")
