@@ -292,3 +292,29 @@ def test_damaged_records_are_run_again(tmp_path):
     answer = buckens.sweep(MODEL, TABLE, out, executor=cf.ThreadPoolExecutor(1))
     assert statuses(answer).count("kept") == 5
     assert text_of(out).replace(",kept,", ",done,") == expected
+
+
+def test_tables_of_other_shapes_are_refused(tmp_path):
+    """A text is one value, not as many variants as it has letters."""
+    for values in ("12", "1 to 5 m/s^2", 5, None, {"a": 1}):
+        for executor in (1, None):
+            with pytest.raises(buckens.InputError, match=r"gravity.1: expected a list of values, found .* buckens.study"):
+                buckens.sweep(MODEL, {"gravity.1": values}, tmp_path / "out", executor=executor)
+    with pytest.raises(buckens.InputError, match="gravity.1: the list of values is empty"):
+        buckens.sweep(MODEL, {"gravity.1": []}, tmp_path / "out", executor=1)
+
+
+def test_executors_made_by_what_is_given(tmp_path):
+    with pytest.raises(buckens.InputError, match="creates something with `submit`.*it returned 5"):
+        buckens.sweep(MODEL, {"gravity.1": [1]}, tmp_path / "out", executor=lambda: 5)
+    answer = buckens.sweep(MODEL, {"gravity.1": [1]}, tmp_path / "out", executor=cf.ThreadPoolExecutor, set=SHORT)
+    assert statuses(answer) == ["done"]
+
+
+def test_results_say_why_there_are_none(tmp_path):
+    with pytest.raises(buckens.IoError, match="nowhere: cannot read the table of a sweep: No such file"):
+        buckens.study.results(tmp_path / "nowhere", "tip.y max")
+    table = {"bodies.rod.rigid.mass": [-1, -2]}
+    answer = buckens.sweep(MODEL, table, tmp_path / "out", executor=cf.ThreadPoolExecutor, set=SHORT)
+    with pytest.raises(buckens.InputError, match="all 2 variants failed, the first because of: .*mass"):
+        buckens.study.results(answer, "tip.y max")

@@ -9,7 +9,7 @@ from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Uni
 
 import numpy as np
 
-from .errors import InputError
+from .errors import InputError, IoError
 from .model import PathLike
 from .study_distributions import Array
 from .study_sampling import Samples
@@ -29,13 +29,20 @@ def results(sweep: SweepLike, column: str) -> Array:
     Raises
     ------
     InputError
-        If there is no such column, naming the existing ones.
+        If there is no such column, naming the existing ones, or if all variants failed.
+    IoError
+        If there is no table.
     """
     path = os.fspath(sweep["table"] if isinstance(sweep, Mapping) else sweep)
     if os.path.isdir(path):
         path = os.path.join(path, "sweep.csv")
-    with open(path, encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
+    try:
+        with open(path, encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+    except OSError as error:
+        raise IoError(f"{path}: cannot read the table of a sweep: {error.strerror}") from None
+    if rows and all(row.get("status") == "failed" for row in rows):
+        raise InputError(f"{path}: all {len(rows)} variants failed, the first because of: {rows[0].get('message')}")
     names = list(rows[0]) if rows else []
     found = [name for name in names if column in (name, _without_unit(name))]
     if not found:

@@ -31,7 +31,21 @@ def is_frame(table: Any) -> bool:
 
 def ranges_of(table: Mapping[str, Sequence[Any]]) -> List[str]:
     """Converts values by path to arguments of `--vary`."""
-    return [f"{path}={_flow(list(values), path)}" for path, values in table.items()]
+    return [f"{path}={_flow(_values_of(values, path), path)}" for path, values in table.items()]
+
+
+def _values_of(values: Any, path: str) -> List[Any]:
+    """Returns the values of one quantity. A text is one value, not a list of its letters."""
+    try:
+        out = None if isinstance(values, (str, bytes, Mapping)) else list(values)
+    except TypeError:
+        out = None
+    if out is None:
+        raise InputError(f"{path}: expected a list of values, found {values!r}; write [{values!r}] for a single value, and draw "
+                         "samples of a distribution with buckens.study, for example latin_hypercube")
+    if not out:
+        raise InputError(f"{path}: the list of values is empty; give at least one value")
+    return out
 
 
 def write_frame(table: Any, file: PathLike) -> None:

@@ -29,7 +29,7 @@ class Workers:
             processes = executor
             # Not copies of this process, which may have threads.
             self._make = lambda: cf.ProcessPoolExecutor(processes, multiprocessing.get_context("forkserver"))
-        elif not hasattr(executor, "submit") and callable(executor):
+        elif callable(executor) and (isinstance(executor, type) or not hasattr(executor, "submit")):
             self._make = executor
         elif hasattr(executor, "get_executor"):  # a Client of Dask
             self._executor: Any = executor.get_executor(pure=False)
@@ -42,6 +42,9 @@ class Workers:
                              f"concurrent.futures or a Client of Dask, found {executor!r}")
         if self._make is not None:
             self._executor = self._make()
+            if not hasattr(self._executor, "submit"):
+                raise InputError(f"executor: expected a function that creates something with `submit`, such as an executor of "
+                                 f"concurrent.futures, but it returned {self._executor!r}")
         self._client: Any = executor if hasattr(executor, "get_executor") else getattr(executor, "_client", None)
         self._asked = count
         self._known, self._next_question = 1, 0.0
