@@ -181,7 +181,7 @@ ExitCode run_shard(const SweepArguments& arguments, const sweep::SweepTable& tab
   const sweep::ShardNotes notes(directory, shard, variants);
   const sweep::SweepOutcome outcome = run(arguments, variants, notes, json);
   sweep::write_part(directory, shard, study, mine,
-                    sweep::sweep_summary(directory, variants, outcome));
+                    sweep::sweep_summary(directory, variants, outcome), outcome.variants);
   notes.end();
   tell_outcome(arguments, outcome, directory / sweep::kPartsName / (shard.name() + ".json"), json);
   return exit_code_of(outcome.variants);

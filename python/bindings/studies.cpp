@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bindings/studies.h"
 
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +18,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/base/units.h"
 #include "buckens/files/output_file.h"
+#include "buckens/files/text_file.h"
 #include "buckens/sweep/shards.h"
 #include "buckens/sweep/summary.h"
 #include "buckens/sweep/variant_rows.h"
@@ -66,6 +71,31 @@ std::tuple<double, std::string, double, std::string> quantity(const std::string&
   return {*number, parts.unit, unit->factor, base::si_unit(unit->dimension)};
 }
 
+std::string text_of(std::uint64_t content) { return fmt::format("{:016x}", content); }
+
+/// Hash of a file as files::FilesRead has it; empty if it cannot be read.
+std::string file_content(const std::string& path) {
+  const files::FilesRead read;
+  try {
+    (void)files::read_text_file(path, "file", std::numeric_limits<std::size_t>::max());
+  } catch (const IoError&) {
+    return {};
+  }
+  return text_of(read.hashes().begin()->second);
+}
+
+/// Rows of variants: cells, and contents of files by their paths.
+using Rows = std::vector<std::pair<sweep::SummaryCells, std::map<std::string, std::string>>>;
+
+Rows run_variants(sweep::VariantRows& worker, const Variants& variants) {
+  Rows out;
+  for (sweep::VariantRow& row : worker.run(from_python(variants))) {
+    auto& [cells, files] = out.emplace_back(std::move(row.cells), Rows::value_type::second_type{});
+    for (const auto& [path, content] : row.files) files[path.string()] = text_of(content);
+  }
+  return out;
+}
+
 void write_table(const std::string& directory, const std::vector<sweep::SummaryCells>& rows) {
   sweep::SummaryTable table;
   for (const sweep::SummaryCells& row : rows) table.add_row(row);
@@ -83,16 +113,14 @@ void define_studies(py::module_& core) {
            Unlocked());
   core.def("quantity", &quantity, "text"_a);
   core.def("write_table", &write_table, "directory"_a, "rows"_a, Unlocked());
-  using Rows = sweep::VariantRows;
-  py::class_<Rows, std::shared_ptr<Rows>>(core, "VariantRows")
+  core.def("file_content", &file_content, "path"_a, Unlocked());
+  using Worker = sweep::VariantRows;
+  py::class_<Worker, std::shared_ptr<Worker>>(core, "VariantRows")
       .def(py::init<std::string, Names, Names>(), "model"_a, "overrides"_a, "paths"_a, Unlocked())
-      .def_property_readonly("source", &Rows::source)
-      .def_property_readonly("num_factorisations", &Rows::num_factorisations)
-      .def(
-          "run",
-          [](Rows& rows, const Variants& variants) { return rows.run(from_python(variants)); },
-          "variants"_a, Unlocked())
-      .def("forget_factors", &Rows::forget_factors, Unlocked());
+      .def_property_readonly("source", &Worker::source)
+      .def_property_readonly("num_factorisations", &Worker::num_factorisations)
+      .def("run", &run_variants, "variants"_a, Unlocked())
+      .def("forget_factors", &Worker::forget_factors, Unlocked());
 }
 
 }  // namespace buckens::python

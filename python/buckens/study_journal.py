@@ -18,6 +18,7 @@ from contextlib import contextmanager
 from typing import Any, Dict, Iterable, Iterator, List, Optional, Sequence, Set, Tuple
 
 from .errors import InputError
+from .study_files import FileContents
 
 Cells = List[Tuple[str, str]]
 FOLDER, STUDY, KEPT = ".rows", "study.json", "kept.jsonl"
@@ -96,6 +97,7 @@ class StudyJournal:
         self.rows: Dict[str, Dict[str, Any]] = {}
         self.begun: Dict[str, Tuple[float, str]] = {}  # key: since when, by which worker
         self._own: Optional[TaskJournal] = None
+        self._contents = FileContents()
 
     def begin_study(self, about: Dict[str, Any]) -> None:
         replace_file(self.folder / STUDY, json.dumps({"study": self._study, **about}))
@@ -116,8 +118,14 @@ class StudyJournal:
             for line in _lines(text[:whole]):
                 self.take(line)
 
+    def changed_file(self, row: Dict[str, Any]) -> Optional[str]:
+        """Returns a file that had another content when the variant of a row read it; None if there is none."""
+        return self._contents.changed_since(row)
+
     def take(self, line: Dict[str, Any]) -> None:
         if "cells" in line and "key" in line:
+            if self.changed_file(line) is not None:
+                return  # of an earlier call: to be run again
             self.rows[line["key"]] = line
             self.begun.pop(line["key"], None)
         elif "begin" in line:

@@ -48,7 +48,6 @@ class StudyRun:
         self._flying: Dict["cf.Future[Done]", Tuple[Task, str]] = {}  # with the scheduler that has it
         self._per_variant: Optional[float] = None
         self._number = 0
-        self._call = uuid.uuid4().hex[:8]
         self.factorisations = 0
         self.work_seconds: Dict[str, float] = {}  # by worker
 
@@ -124,7 +123,7 @@ class StudyRun:
             waves.append(self._queue.popleft()[1])
             self._num_queued -= len(waves[-1])
         self._number += 1
-        return Task(f"{self._call}-{self._number}", group, waves)
+        return Task(f"{self._study.call}-{self._number}", group, waves)
 
     def _take(self, future: "cf.Future[Done]", task: Task) -> None:
         if is_loss(future):
@@ -135,6 +134,11 @@ class StudyRun:
         done = future.result()
         unkept = set(done.unkept)
         for row in done.rows:
+            changed = self._journal.changed_file(row)
+            if changed is not None:
+                raise IoError(f"worker {done.worker} has read a different content of {changed} than the process that started the "
+                              "study; put the file where all workers see the same one, do not change it during a study, and call "
+                              "again")
             if row["key"] in unkept:
                 self._journal.keep(row)
             self._journal.take(row)
@@ -222,7 +226,7 @@ def sweep_on(executor: ExecutorLike, model: ModelLike, table: TableLike, out: Pa
         overrides = overrides_of(set)
         source = source_hash(_core.VariantRows(path, overrides, variants.paths).source)
         study = Study(_core.version, key_of(_core.version + source, variants.paths), path, source, overrides, variants.paths,
-                      str(folder))
+                      str(folder), uuid.uuid4().hex[:8])
         run = StudyRun(study, variants, Workers(executor, workers), together, ProgressDisplay(progress))
         try:
             run.run()

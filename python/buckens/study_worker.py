@@ -27,6 +27,7 @@ class Study(NamedTuple):
     overrides: List[str]
     paths: List[str]
     out: str
+    call: str = ""     # one call of buckens.sweep: its workers expect files that do not change
 
 
 class Task(NamedTuple):
@@ -67,8 +68,8 @@ def run_task(study: Study, task: Task) -> Done:
             began = time.perf_counter()
             found = runner.run([variant for _, variant in left])
             seconds = (time.perf_counter() - began) / len(left)
-            new: List[Dict[str, Any]] = [{"key": key, "cells": cells, "seconds": round(seconds, 6)}
-                                         for (key, _), cells in zip(left, found)]
+            new: List[Dict[str, Any]] = [{"key": key, "cells": cells, "seconds": round(seconds, 6), "files": files}
+                                         for (key, _), (cells, files) in zip(left, found)]
             if not journal.add(new):
                 unkept += [key for key, _ in left]
             rows.update({row["key"]: row for row in new})
@@ -101,6 +102,7 @@ def _runner(study: Study, group: int) -> _core.VariantRows:
     runner = _core.VariantRows(study.model, study.overrides, study.paths)
     if source_hash(runner.source) != study.source:
         raise IoError(f"worker {worker_name()} sees a different version of {study.model} or of a file that it names than "
-                      "the process that started the study; put these files where all workers see the same ones")
+                      "the process that started the study; put these files where all workers see the same ones, do not change them "
+                      "during a study, and call again")
     _here.kept = (study, runner, group)
     return runner

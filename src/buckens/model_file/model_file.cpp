@@ -115,9 +115,11 @@ std::vector<std::string> signal_names(const YamlNode& root) {
   return out;
 }
 
-model::ModelDescription read_with_meshes(const std::string& text, const std::string& name,
-                                         const std::vector<std::string>& overrides,
-                                         StepMeshCache& meshes) {
+}  // namespace
+
+model::ModelDescription read_model_text(const std::string& text, const std::string& name,
+                                        const std::vector<std::string>& overrides,
+                                        StepMeshCache& meshes) {
   YamlNode root = parse_yaml(text, name);
   if (root.kind == YamlNode::Kind::null) {
     throw InputError({name, 0, 0}, "the model file is empty; it begins with \"buckens: 1\"");
@@ -150,12 +152,10 @@ model::ModelDescription read_with_meshes(const std::string& text, const std::str
   return out;
 }
 
-}  // namespace
-
 model::ModelDescription read_model_text(const std::string& text, const std::string& name,
                                         const std::vector<std::string>& overrides) {
   StepMeshCache meshes;
-  return read_with_meshes(text, name, overrides, meshes);
+  return read_model_text(text, name, overrides, meshes);
 }
 
 model::ModelDescription read_model_file(const std::filesystem::path& path,
@@ -167,8 +167,8 @@ model::ModelDescription read_model_file(const std::filesystem::path& path,
 model::ModelDescription read_model_file(const std::filesystem::path& path,
                                         const std::vector<std::string>& overrides,
                                         StepMeshCache& meshes) {
-  return read_with_meshes(files::read_text_file(path, "model file"), path.string(), overrides,
-                          meshes);
+  return read_model_text(files::read_text_file(path, "model file"), path.string(), overrides,
+                         meshes);
 }
 
 }  // namespace buckens::model_file

@@ -49,5 +49,9 @@ class StepMeshCache {
 model::ModelDescription read_model_file(const std::filesystem::path& path,
                                         const std::vector<std::string>& overrides,
                                         StepMeshCache& meshes);
+/// The same of read_model_text().
+model::ModelDescription read_model_text(const std::string& text, const std::string& name,
+                                        const std::vector<std::string>& overrides,
+                                        StepMeshCache& meshes);
 
 }  // namespace buckens::model_file

@@ -32,12 +32,18 @@ struct Part {
   fs::path file;
   Shard shard;
   std::string version, study;
+  std::map<std::string, std::string> files;  // of variants: contents by path
   std::vector<std::pair<std::size_t, SummaryCells>> rows;
 };
 
 Part read_part(const fs::path& file) {
   const auto json = ordered_json::parse(files::read_text_file(file, "part of a sweep"));
-  Part out{file, {json.at("shard"), json.at("shards")}, json.at("version"), json.at("study"), {}};
+  Part out{file,
+           {json.at("shard"), json.at("shards")},
+           json.at("version"),
+           json.at("study"),
+           json.at("files"),
+           {}};
   for (const auto& row : json.at("rows")) {
     SummaryCells cells;
     for (const auto& cell : row.at("cells")) cells.emplace_back(cell.at(0), cell.at(1));
@@ -72,6 +78,22 @@ std::vector<Part> read_parts(const fs::path& out) {
   return parts;
 }
 
+/// The study hashes what the model without variants reads, but not what only variants do.
+void check_files(const std::vector<Part>& parts) {
+  std::map<std::string, std::pair<std::string, const Part*>> known;
+  for (const Part& part : parts) {
+    for (const auto& [path, content] : part.files) {
+      const auto [at, is_new] = known.emplace(path, std::pair(content, &part));
+      if (is_new || at->second.first == content) continue;
+      throw InputError(
+          {part.file.string(), 0, 0},
+          fmt::format("the variants of this part have read another content of {} than those of {}; "
+                      "run both shards again, which keeps what is up to date",
+                      path, at->second.second->file.filename().string()));
+    }
+  }
+}
+
 void check_parts(const fs::path& out, const std::vector<Part>& parts) {
   const Part& first = parts.front();
   std::map<int, std::string> there;
@@ -101,7 +123,7 @@ void check_parts(const fs::path& out, const std::vector<Part>& parts) {
     if (there.contains(index) || ++num_missing > 10) continue;
     missing += fmt::format("{}{}/{}", missing.empty() ? "" : ", ", index, first.shard.count);
   }
-  if (num_missing == 0) return;
+  if (num_missing == 0) return check_files(parts);
   throw InputError(
       {out.string(), 0, 0},
       fmt::format(
@@ -138,7 +160,14 @@ std::string study_of(const fs::path& model, const std::vector<std::string>& over
 }
 
 void write_part(const fs::path& out, const Shard& shard, const std::string& study,
-                const std::vector<std::size_t>& variants, const SummaryTable& summary) {
+                const std::vector<std::size_t>& variants, const SummaryTable& summary,
+                const std::vector<VariantOutcome>& outcomes) {
+  ordered_json files = ordered_json::object();
+  for (const VariantOutcome& outcome : outcomes) {
+    for (const auto& [path, content] : outcome.files) {
+      files[path.string()] = fmt::format("{:016x}", content);
+    }
+  }
   ordered_json rows = ordered_json::array();
   for (std::size_t row = 0; row < summary.num_rows(); ++row) {
     ordered_json cells = ordered_json::array();
@@ -147,11 +176,9 @@ void write_part(const fs::path& out, const Shard& shard, const std::string& stud
     }
     rows.push_back({{"index", variants[row]}, {"cells", std::move(cells)}});
   }
-  const ordered_json json = {{"version", kVersion},
-                             {"shard", shard.index},
-                             {"shards", shard.count},
-                             {"study", study},
-                             {"rows", std::move(rows)}};
+  const ordered_json json = {{"version", kVersion},       {"shard", shard.index},
+                             {"shards", shard.count},     {"study", study},
+                             {"files", std::move(files)}, {"rows", std::move(rows)}};
   std::error_code error;
   fs::create_directories(out / kPartsName, error);
   files::replace_text_file(out / kPartsName / (shard.name() + ".json"),

@@ -20,9 +20,11 @@ std::string study_of(const std::filesystem::path& model, const std::vector<std::
 
 /// Writes the rows of one shard to OUT/.parts/I-of-N.json: the whole file or nothing.
 /// @param variants indices in the whole table of the rows of `summary`
+/// @param outcomes of these variants
 /// @throws IoError
 void write_part(const std::filesystem::path& out, const Shard& shard, const std::string& study,
-                const std::vector<std::size_t>& variants, const SummaryTable& summary);
+                const std::vector<std::size_t>& variants, const SummaryTable& summary,
+                const std::vector<VariantOutcome>& outcomes);
 
 /// A sweep put together from its parts.
 struct MergedSweep {
@@ -32,7 +34,8 @@ struct MergedSweep {
 };
 
 /// @throws InputError if parts are missing (naming them), belong to different sweeps or to
-/// divisions into different numbers of shards; IoError if one cannot be read or is damaged
+/// divisions into different numbers of shards, or have read a file with different contents;
+/// IoError if one cannot be read or is damaged
 MergedSweep merge_parts(const std::filesystem::path& out);
 
 }  // namespace buckens::sweep

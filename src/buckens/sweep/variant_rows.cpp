@@ -7,7 +7,6 @@
 #include "buckens/analysis/simulation/choose_modes.h"
 #include "buckens/analysis/simulation/simulation.h"
 #include "buckens/base/errors.h"
-#include "buckens/model_file/model_file.h"
 #include "buckens/run_store/basis_files.h"
 #include "buckens/sweep/summary.h"
 
@@ -22,19 +21,14 @@ struct VariantRows::Run {
 
 VariantRows::VariantRows(std::filesystem::path model, std::vector<std::string> overrides,
                          std::vector<std::string> paths)
-    : model_(std::move(model)), overrides_(std::move(overrides)), table_{std::move(paths), {}} {
-  const model::ModelDescription base =
-      model_file::read_model_file(model_, overrides_, step_meshes_);
-  if (!base.simulation) throw InputError(base.where, kNoSimulation);
-  source_ = base.source;
-}
+    : models_(std::move(model), std::move(overrides)), table_{std::move(paths), {}} {}
 
 VariantRows::~VariantRows() = default;
 
 void VariantRows::forget_factors() { last_.clear(); }
 
-std::vector<SummaryCells> VariantRows::run(const std::vector<Variant>& variants) {
-  std::vector<SummaryCells> rows(variants.size());
+std::vector<VariantRow> VariantRows::run(const std::vector<Variant>& variants) {
+  std::vector<VariantRow> rows(variants.size());
   std::vector<std::unique_ptr<Run>> runs;
   std::vector<std::function<void()>> work;
   for (std::size_t v = 0; v < variants.size(); ++v) {
@@ -50,17 +44,16 @@ std::vector<SummaryCells> VariantRows::run(const std::vector<Variant>& variants)
   return rows;
 }
 
-SummaryCells VariantRows::run_one(const Variant& variant, Run& run) {
-  VariantOutcome outcome{variant.name, VariantStatus::done, {}};
+VariantRow VariantRows::run_one(const Variant& variant, Run& run) {
+  VariantOutcome outcome{variant.name, VariantStatus::done, {}, {}};
+  VariantRow row;
   try {
-    std::vector<std::string> overrides = overrides_;
-    for (std::string& text : table_.overrides(variant)) overrides.push_back(std::move(text));
-    model::ModelDescription description =
-        model_file::read_model_file(model_, overrides, step_meshes_);
+    VariantModels::Read read = models_.read(table_, variant);
+    row.files = std::move(read.files);
     std::vector<std::string> notes;
-    run_store::BasisFiles bases(description.directory, run_store::BasisFiles::Others::leave);
-    analysis::choose_modes(description, notes);
-    run.built = model::build_model(std::move(description), &bases);
+    run_store::BasisFiles bases(read.description.directory, run_store::BasisFiles::Others::leave);
+    analysis::choose_modes(read.description, notes);
+    run.built = model::build_model(std::move(read.description), &bases);
     run.built->model.notes.insert(run.built->model.notes.end(), notes.begin(), notes.end());
     analysis::SimulationOptions options;
     options.exchange = &exchange_;
@@ -68,14 +61,15 @@ SummaryCells VariantRows::run_one(const Variant& variant, Run& run) {
     run.simulation = std::make_unique<analysis::Simulation>(*run.built, options);
     run.simulation->record_into(run.extremes);
     const results::RunSummary summary = run.simulation->run();
-    SummaryCells row = summary_cells(table_, variant, outcome);
-    for (auto& cell : run.extremes.cells(summary)) row.push_back(std::move(cell));
+    row.cells = summary_cells(table_, variant, outcome);
+    for (auto& cell : run.extremes.cells(summary)) row.cells.push_back(std::move(cell));
     return row;
   } catch (const std::exception& error) {
     outcome.status = VariantStatus::failed;
     outcome.message = error.what();
   }
-  return summary_cells(table_, variant, outcome);
+  row.cells = summary_cells(table_, variant, outcome);
+  return row;
 }
 
 }  // namespace buckens::sweep

@@ -7,11 +7,17 @@
 #include <vector>
 
 #include "buckens/linalg/solve_exchange.h"
-#include "buckens/model_file/step_mesh_cache.h"
 #include "buckens/sweep/summary_table.h"
 #include "buckens/sweep/table.h"
+#include "buckens/sweep/variant_models.h"
 
 namespace buckens::sweep {
+
+/// The row of a variant.
+struct VariantRow {
+  SummaryCells cells;
+  FileContents files;  ///< that the variant reads beyond those of the model without variants
+};
 
 /// What a worker of a study does: runs variants of one model in memory and returns their rows of
 /// the table, the same as run_variants() and sweep_summary() make by way of run directories.
@@ -27,10 +33,10 @@ class VariantRows {
   ~VariantRows();
 
   /// The model without variants as text, with hashes of the files that it names.
-  const std::string& source() const { return source_; }
+  const std::string& source() const { return models_.source(); }
   /// Runs these variants side by side. Their number may change the last digits of large bodies.
   /// @return a row each; what fails is `failed` with its reason
-  std::vector<SummaryCells> run(const std::vector<Variant>& variants);
+  std::vector<VariantRow> run(const std::vector<Variant>& variants);
   /// Factors made so far.
   long num_factorisations() const { return exchange_.num_factorisations(); }
   /// Gives the kept factors back, before variants with other matrices.
@@ -39,13 +45,10 @@ class VariantRows {
  private:
   struct Run;
 
-  SummaryCells run_one(const Variant& variant, Run& run);
+  VariantRow run_one(const Variant& variant, Run& run);
 
-  std::filesystem::path model_;
-  std::vector<std::string> overrides_;
+  VariantModels models_;
   SweepTable table_;  // without variants
-  std::string source_;
-  model_file::StepMeshCache step_meshes_;
   linalg::SolveExchange exchange_;
   std::vector<std::unique_ptr<Run>> last_;
 };

@@ -15,8 +15,6 @@
 #include "buckens/files/output_file.h"
 #include "buckens/files/text_file.h"
 #include "buckens/linalg/solve_exchange.h"
-#include "buckens/model_file/model_file.h"
-#include "buckens/model_file/step_mesh_cache.h"
 #include "buckens/run_store/basis_files.h"
 #include "buckens/run_store/run_directory.h"
 #include "buckens/run_store/run_reader.h"
@@ -68,20 +66,20 @@ std::optional<base::SavedValues> checkpoint_in(const fs::path& directory,
 
 class Sweep {
  public:
-  Sweep(const SweepTable& table, const fs::path& out, const SweepOptions& options)
-      : table_(table), out_(out), options_(options), shares_(table.variants.size(), 0.0) {
+  /// @throws what the model without variants throws: errors that do not concern the variants
+  Sweep(const fs::path& model, const std::vector<std::string>& overrides, const SweepTable& table,
+        const fs::path& out, const SweepOptions& options)
+      : table_(table),
+        out_(out),
+        options_(options),
+        shares_(table.variants.size(), 0.0),
+        models_(model, overrides) {
     for (const Variant& variant : table.variants) {
-      outcome_.variants.push_back({variant.name, VariantStatus::interrupted, {}});
+      outcome_.variants.push_back({variant.name, VariantStatus::interrupted, {}, {}});
     }
   }
 
-  SweepOutcome run(const fs::path& model, const std::vector<std::string>& overrides) {
-    model_ = model;
-    overrides_ = overrides;
-    // Errors without any variant do not concern the variants.
-    const model::ModelDescription base =
-        model_file::read_model_file(model, overrides, step_meshes_);
-    if (!base.simulation) throw InputError(base.where, kNoSimulation);
+  SweepOutcome run() {
     make_directory();
     if (options_.on_begin) options_.on_begin();
     for (std::size_t begin = 0; begin < table_.variants.size() && !stopped_;) {
@@ -121,13 +119,10 @@ class Sweep {
 
   /// The model of a variant; none if that is all there is to do.
   std::shared_ptr<model::ModelDescription> read(std::size_t v) {
-    std::vector<std::string> overrides = overrides_;
-    for (std::string& text : table_.overrides(table_.variants[v])) {
-      overrides.push_back(std::move(text));
-    }
     try {
-      auto out = std::make_shared<model::ModelDescription>(
-          model_file::read_model_file(model_, overrides, step_meshes_));
+      VariantModels::Read read = models_.read(table_, table_.variants[v]);
+      outcome_.variants[v].files = std::move(read.files);
+      auto out = std::make_shared<model::ModelDescription>(std::move(read.description));
       if (!holds_finished_run(directory_of(v), *out)) return out;
       end(v, VariantStatus::kept);
     } catch (const Error& error) {
@@ -245,13 +240,11 @@ class Sweep {
   const SweepTable& table_;
   const fs::path& out_;
   const SweepOptions& options_;
-  fs::path model_;
-  std::vector<std::string> overrides_;
   std::vector<double> shares_;
   std::size_t num_ended_ = 0;
   bool stopped_ = false;
   linalg::SolveExchange exchange_;
-  model_file::StepMeshCache step_meshes_;
+  VariantModels models_;
   SweepOutcome outcome_;
 };
 
@@ -274,7 +267,7 @@ std::string to_string(VariantStatus status) {
 SweepOutcome run_variants(const fs::path& model, const std::vector<std::string>& overrides,
                           const SweepTable& table, const fs::path& out,
                           const SweepOptions& options) {
-  return Sweep(table, out, options).run(model, overrides);
+  return Sweep(model, overrides, table, out, options).run();
 }
 
 }  // namespace buckens::sweep

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "buckens/sweep/table.h"
+#include "buckens/sweep/variant_models.h"
 
 namespace buckens::sweep {
 
@@ -29,6 +30,7 @@ struct VariantOutcome {
   std::string name;
   VariantStatus status = VariantStatus::interrupted;
   std::string message;  ///< why it failed
+  FileContents files;   ///< that it read beyond those of the model without variants
 };
 
 struct SweepProgress {

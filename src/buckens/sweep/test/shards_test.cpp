@@ -108,7 +108,8 @@ class Parts : public StudyFolder {
                      {"message", index == 2 ? "no, \"never\"" : ""},
                      {"x [m] last", std::to_string(index) + ".5"}});
     // From the last to the first: the table has its own order.
-    write_part(folder_, {index, count}, study, {static_cast<std::size_t>(count - index)}, summary);
+    write_part(folder_, {index, count}, study, {static_cast<std::size_t>(count - index)}, summary,
+               {});
   }
   void refuses(const std::string& words) {
     EXPECT_THAT([&] { merge_parts(folder_); }, ThrowsMessage<Error>(HasSubstr(words)));
