@@ -3,6 +3,7 @@
 
 import csv
 import json
+import os
 import signal
 import time
 
@@ -162,3 +163,30 @@ def test_says_what_is_wrong(buckens, models, tmp_path):
     part = tmp_path / "many" / ".parts" / "1-of-9.json"
     part.write_text(json.dumps({"shard": 1}))
     buckens("sweep", "--merge", "many").must(5, "1-of-9", "remove it")
+
+
+def test_a_sweep_is_run_by_one_process(buckens, start, models, tmp_path):
+    """A second one would find the variants of the first locked, and write a table that calls them failed."""
+    steps = ("--vary", "gravity.1=[" + ", ".join(map(str, range(1, 31))) + "]", "--set", "simulation.step=20 us")
+    for out, words, name in (("whole", (), "this sweep"), ("parts", ("--shard", "1/2"), "shard 1/2")):
+        call = ("sweep", models / "pendulum.yaml", *steps, "-o", out, "--together", "1", "-q", *words)
+        process = start(*call)
+        for _ in range(2000):
+            if list((tmp_path / out).glob("*/summary.json")):
+                break
+            time.sleep(0.01)
+        buckens(*call).must(5, f"{out}: another process is running {name}", "Wait for its end")
+        assert process.wait(timeout=60) == 0
+        buckens(*call).must(0)
+
+
+def test_mpirun_is_no_way_to_divide_a_sweep(buckens, models):
+    """What mpirun says in the environment: one of its processes tells it, and none begins."""
+    alone = {**os.environ, "OMPI_COMM_WORLD_SIZE": "2", "OMPI_COMM_WORLD_RANK": "0"}
+    call = ("sweep", models / "pendulum.yaml", *RANGES, "-o", "out", "-q")
+    buckens(*call, env=alone).must(2, "mpirun has started 2 processes", "--shard I/2")
+    other = buckens(*call, env={**alone, "OMPI_COMM_WORLD_RANK": "1"}).must(2)
+    assert other.err == "" and other.out == ""
+    for rank in ("0", "1"):
+        buckens(*call, "--shard", f"{int(rank) + 1}/2", env={**alone, "OMPI_COMM_WORLD_RANK": rank}).must(0)
+    buckens("sweep", "--merge", "out", "-q", env=alone).must(0)

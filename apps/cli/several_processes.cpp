@@ -40,17 +40,40 @@ int refuse(int argc, const char* const* argv, const linalg::StartedProcesses& st
   return report_failure(failure, asks(argc, argv, "--json"));
 }
 
+/// Whether every process would run all variants of a sweep.
+bool repeats_sweep(int argc, const char* const* argv) {
+  if (argc < 2 || std::string_view(argv[1]) != "sweep") return false;
+  return std::none_of(argv + 2, argv + argc, [](std::string_view word) {
+    return word.starts_with("--shard") || word.starts_with("--merge") ||
+           word.starts_with("--status");
+  });
+}
+
+int refuse_sweep(int argc, const char* const* argv, const linalg::StartedProcesses& started) {
+  if (started.rank > 0) return static_cast<int>(ExitCode::input);
+  Failure failure;
+  failure.code = ExitCode::input;
+  failure.kind = "input";
+  failure.message = fmt::format(
+      "mpirun has started {} processes, each of which would run all variants of the sweep; start "
+      "it without mpirun, or give each process its part (--shard I/{})",
+      started.count, started.count);
+  return report_failure(failure, asks(argc, argv, "--json"));
+}
+
 }  // namespace
 
 bool are_several(int argc, const char* const* argv) {
   if (linalg::started_processes().count < 2) return false;
   if (asks(argc, argv, "--help") || asks(argc, argv, "-h")) return false;
+  if (repeats_sweep(argc, argv)) return true;
   return std::any_of(kVerbs.begin(), kVerbs.end(),
                      [&](std::string_view verb) { return argc > 1 && verb == argv[1]; });
 }
 
 int run_together(int argc, const char* const* argv) {
   const linalg::StartedProcesses started = linalg::started_processes();
+  if (repeats_sweep(argc, argv)) return refuse_sweep(argc, argv, started);
   if (!linalg::missing_grid_solver().empty()) return refuse(argc, argv, started);
   linalg::Ranks ranks;
   if (ranks.is_first()) return run_program(argc, argv);

@@ -4,7 +4,8 @@
 namespace buckens::cli {
 
 /// Whether mpirun has started several processes for a verb that solves large systems, which they
-/// are to do together. Other verbs, such as shards of a sweep, run once per process.
+/// are to do together, or for a whole sweep, which is refused. Other verbs, such as shards of a
+/// sweep, run once per process.
 bool are_several(int argc, const char* const* argv);
 
 /// The first process runs the program; the others hold their shares of factors until it ends.

@@ -151,7 +151,7 @@ void tell_outcome(const SweepArguments& arguments, const sweep::SweepOutcome& ou
 }
 
 sweep::SweepOutcome run(const SweepArguments& arguments, const sweep::SweepTable& variants,
-                        const sweep::ShardNotes& notes, bool json) {
+                        sweep::ShardNotes& notes, bool json) {
   const Interruption interruption(style_for(stderr) == ProgressDisplay::Style::bar);
   SweepDisplay display(arguments.quiet || json);
   sweep::SweepOptions options;
@@ -178,7 +178,7 @@ ExitCode run_shard(const SweepArguments& arguments, const sweep::SweepTable& tab
   const auto shards = sweep::divide_into_shards(groups, shard.count);
   const std::vector<std::size_t>& mine = shards[static_cast<std::size_t>(shard.index) - 1];
   const sweep::SweepTable variants = sweep::selected(table, mine);
-  const sweep::ShardNotes notes(directory, shard, variants);
+  sweep::ShardNotes notes(directory, shard, variants);
   const sweep::SweepOutcome outcome = run(arguments, variants, notes, json);
   sweep::write_part(directory, shard, study, mine,
                     sweep::sweep_summary(directory, variants, outcome), outcome.variants);
@@ -227,7 +227,7 @@ ExitCode sweep(const SweepArguments& arguments, bool json) {
   const sweep::SweepTable variants = variants_of(arguments);
   if (!arguments.shard.empty()) return run_shard(arguments, variants, json);
   const fs::path directory = arguments.directory();
-  const sweep::ShardNotes notes(directory, {}, variants);
+  sweep::ShardNotes notes(directory, {}, variants);
   const sweep::SweepOutcome outcome = run(arguments, variants, notes, json);
   write_table(directory, sweep::sweep_summary(directory, variants, outcome));
   notes.end();

@@ -26,6 +26,7 @@ namespace {
 constexpr char kBegun[] = ".begun";
 constexpr char kFailed[] = ".failed";
 constexpr char kEnded[] = ".ended";
+constexpr char kLock[] = ".lock";
 
 /// On the clock of the disk, which the machines of a cluster share.
 std::optional<fs::file_time_type> time_of(const fs::path& file) {
@@ -144,11 +145,23 @@ ShardNotes::ShardNotes(const fs::path& out, const Shard& shard, const SweepTable
 
 fs::path ShardNotes::file(const char* suffix) const { return folder_ / (shard_.name() + suffix); }
 
-void ShardNotes::begin() const {
+void ShardNotes::lock() {
+  lock_ = files::OutputFile(file(kLock), files::OutputFile::Start::as_it_is);
+  if (lock_.try_lock()) return;
+  const std::string what =
+      shard_.count == 1 ? "this sweep" : fmt::format("shard {}/{}", shard_.index, shard_.count);
+  throw IoError(
+      fmt::format("{}: another process is running {}. Wait for its end, or choose another "
+                  "directory (-o) or shard (--shard I/N).",
+                  folder_.parent_path().string(), what));
+}
+
+void ShardNotes::begin() {
   const ordered_json json = {
       {"shard", shard_.index}, {"shards", shard_.count}, {"variants", variants_}};
   std::error_code error;
   fs::create_directories(folder_, error);
+  lock();
   fs::remove(file(kEnded), error);
   fs::remove(file(kFailed), error);
   files::replace_text_file(file(kBegun), json.dump() + '\n');

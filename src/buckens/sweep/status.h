@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "buckens/files/output_file.h"
 #include "buckens/sweep/shards.h"
 
 namespace buckens::sweep {
@@ -16,18 +17,21 @@ class ShardNotes {
  public:
   ShardNotes(const std::filesystem::path& out, const Shard& shard, const SweepTable& variants);
 
-  /// Which variants it is going to run. Forgets an earlier run of this shard. @throws IoError
-  void begin() const;
+  /// Which variants it is going to run. Forgets an earlier run of this shard. From here on no other
+  /// process can run it. @throws IoError, also if another process does
+  void begin();
   void add_failure(const std::string& variant) const;
   /// That it goes on no more. @throws IoError
   void end() const;
 
  private:
   std::filesystem::path file(const char* suffix) const;
+  void lock();
 
   std::filesystem::path folder_;
   Shard shard_;
   std::vector<std::string> variants_;
+  files::OutputFile lock_;
 };
 
 /// How far the variants of one shard are.
