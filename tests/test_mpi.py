@@ -471,6 +471,20 @@ def test_an_error_is_told_once(mpirun):
 
 
 @several
+@pytest.mark.parametrize("missing_rank, teller", [(1, 0), (0, 1)])
+def test_a_process_that_never_joins_is_missed(tmp_path, missing_rank, teller):
+    """A script that calls the program in one process only; MPI would wait for ever."""
+    script = f"[ $OMPI_COMM_WORLD_RANK = {missing_rank} ] && exec sleep 60; exec \"$@\""
+    command = [MPIRUN, "-n", "2", "sh", "-c", script, "sh", PROGRAM, "run", BLOCKS, "-o", "out"]
+    result = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=50, check=False, stdin=subprocess.DEVNULL,
+                            env={**ENVIRONMENT, "BUCKENS_MPI_SECONDS": "2"})
+    assert result.returncode != 0
+    told = [line for line in result.stderr.splitlines() if line.startswith("buckens: error")]
+    assert len(told) == 1 and "2 processes, but not all have joined" in told[0] and "BUCKENS_MPI_SECONDS" in told[0], result.stderr
+    assert f"within {2 + 3 * teller} s" in told[0]
+
+
+@several
 def test_more_processes_than_nodes(mpirun):
     options = ("--set", "bodies.block.mesh.box.divisions=[1, 1, 1]", "--set", f"bodies.block.solver={MUMPS}")
     result = mpirun(9, "run", BLOCKS, *options, timeout=120)

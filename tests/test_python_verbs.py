@@ -253,3 +253,15 @@ def test_a_live_page_ends_with_python(done):
                           env={**os.environ, "PYTHONPATH": str(pathlib.Path(buckens.__file__).parents[1])})
     with pytest.raises(ProcessLookupError):
         os.kill(int(call.stdout), 0)
+
+
+def test_a_verb_called_by_a_process_of_mpi_does_not_wait_for_the_others(tmp_path, monkeypatch):
+    """The program would take itself for the process that mpirun has started, and wait for the rest to join."""
+    for name, value in {"OMPI_COMM_WORLD_SIZE": "2", "OMPI_COMM_WORLD_RANK": "0", "PMIX_RANK": "0", "BUCKENS_MPI_SECONDS": "2"}.items():
+        monkeypatch.setenv(name, value)
+    monkeypatch.setitem(sys.modules, "mpi4py.MPI", object())
+    assert buckens.run(source("tests/models/pendulum.yaml"), tmp_path / "out")["status"] == "finished"
+    from buckens.program import environment
+    assert "OMPI_COMM_WORLD_SIZE" not in environment() and "PMIX_RANK" not in environment() and "PATH" in environment()
+    monkeypatch.delitem(sys.modules, "mpi4py.MPI")
+    assert environment() is None

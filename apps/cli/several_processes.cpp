@@ -3,9 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <condition_variable>
 #include <csignal>
+#include <cstdlib>
+#include <mutex>
 #include <optional>
 #include <string_view>
+#include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -39,6 +45,58 @@ int refuse(int argc, const char* const* argv, const linalg::StartedProcesses& st
       started.count, linalg::missing_grid_solver());
   return report_failure(failure, asks(argc, argv, "--json"));
 }
+
+/// Time for the processes to find each other. MPI itself waits for ever if one of them never joins.
+constexpr double kSecondsToJoin = 120;
+constexpr char kSecondsName[] = "BUCKENS_MPI_SECONDS";
+// The first process tells what is missing, or the second if that is the first itself.
+constexpr double kMorePerRank = 3, kMost = 10;
+
+double seconds_to_join(int rank) {
+  const char* text = std::getenv(kSecondsName);
+  const double given = text != nullptr ? std::atof(text) : 0.0;
+  return (given > 0.0 ? given : kSecondsToJoin) + std::min(kMost, kMorePerRank * rank);
+}
+
+/// Ends this process if the others have not joined it in time.
+class JoinLimit {
+ public:
+  JoinLimit(const linalg::StartedProcesses& started, bool json)
+      : thread_([this, started, json] { watch(started, json); }) {}
+  ~JoinLimit() {
+    {
+      const std::scoped_lock lock(mutex_);
+      has_joined_ = true;
+    }
+    changed_.notify_one();
+    thread_.join();
+  }
+  JoinLimit(const JoinLimit&) = delete;
+  JoinLimit& operator=(const JoinLimit&) = delete;
+
+ private:
+  void watch(const linalg::StartedProcesses& started, bool json) {
+    const double limit = seconds_to_join(started.rank);
+    std::unique_lock lock(mutex_);
+    const auto patience = std::chrono::duration<double>(limit);
+    if (changed_.wait_for(lock, patience, [this] { return has_joined_; })) return;
+    Failure failure;
+    failure.code = ExitCode::io;
+    failure.kind = "io";
+    failure.message = fmt::format(
+        "mpirun has started {} processes, but not all have joined within {:.0f} s: each of them "
+        "has to be buckens with the same verb; start it without mpirun where a script or another "
+        "program calls it, or raise the limit by the environment variable {}",
+        started.count, limit, kSecondsName);
+    const int code = static_cast<int>(failure.code);
+    std::_Exit(started.rank < 2 ? report_failure(failure, json) : code);
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool has_joined_ = false;
+  std::thread thread_;  // last: it uses the others
+};
 
 /// Whether every process would run all variants of a sweep.
 bool repeats_sweep(int argc, const char* const* argv) {
@@ -75,7 +133,9 @@ int run_together(int argc, const char* const* argv) {
   const linalg::StartedProcesses started = linalg::started_processes();
   if (repeats_sweep(argc, argv)) return refuse_sweep(argc, argv, started);
   if (!linalg::missing_grid_solver().empty()) return refuse(argc, argv, started);
+  std::optional<JoinLimit> limit(std::in_place, started, asks(argc, argv, "--json"));
   linalg::Ranks ranks;
+  limit.reset();
   if (ranks.is_first()) return run_program(argc, argv);
   // The first process ends the others: after Ctrl-C it still completes its step with their help.
   std::signal(SIGINT, SIG_IGN);

@@ -9,9 +9,10 @@ import pathlib
 import shutil
 import signal
 import subprocess
+import sys
 import tempfile
 from contextlib import contextmanager
-from typing import Any, Dict, Iterator, List, Sequence
+from typing import Any, Dict, Iterator, List, Optional, Sequence
 
 from . import errors
 from .messages import logger
@@ -21,6 +22,7 @@ _KINDS = {"usage": errors.InputError, "input": errors.InputError, "model": error
           "numerical": errors.NumericalError, "io": errors.IoError, "memory": MemoryError}
 _INTERRUPTED, _DIFFERENT = 130, 6
 _WARNING = "buckens: warning: "
+_OF_MPIRUN = ("OMPI_COMM_WORLD_", "OMPI_MCA_ess", "OMPI_MCA_orte_", "OMPI_MCA_pmix", "PMI_", "PMIX_")
 
 
 def find_program() -> str:
@@ -87,6 +89,14 @@ def options_of(**options: Any) -> List[str]:
     return out
 
 
+def environment() -> Optional[Dict[str, str]]:
+    """Returns the environment of a command: without that of mpirun in a process that uses MPI itself, since the program would
+    otherwise wait for all others to join it."""
+    if "mpi4py.MPI" not in sys.modules:
+        return None
+    return {name: value for name, value in os.environ.items() if not name.startswith(_OF_MPIRUN)}
+
+
 def call(verb: str, arguments: Sequence[str]) -> Dict[str, Any]:
     """Runs a command with `--json` and returns its output.
 
@@ -99,7 +109,7 @@ def call(verb: str, arguments: Sequence[str]) -> Dict[str, Any]:
     """
     command: List[str] = [find_program(), verb, *arguments, "--json"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          stdin=subprocess.DEVNULL, text=True) as process:
+                          stdin=subprocess.DEVNULL, text=True, env=environment()) as process:
         try:
             out, err = process.communicate()
         except KeyboardInterrupt:
