@@ -3,9 +3,12 @@
 
 import csv
 import json
+import subprocess
 
 import numpy
 import pytest
+
+from conftest import PROGRAM
 
 # Solids: a factor large enough that reading it once for several variants pays.
 LARGE_BLOCK = """
@@ -226,3 +229,20 @@ def test_says_what_is_wrong(buckens, models, tmp_path):
     buckens("sweep", model, "table.csv").must(2, "table.csv:2", "2 cells")
     # A path unknown to the format is named in every variant's message.
     buckens("sweep", model, "-o", "out", "--vary", "simulation.durration=[1]").must(4, "duration")
+
+
+def test_a_variant_too_large_for_the_memory_says_so(tmp_path):
+    """And not std::bad_alloc; the others are run."""
+    (tmp_path / "block.yaml").write_text("""buckens: 1
+parameters: {n: 2}
+materials: {steel: {E: 210 GPa, nu: 0.3, rho: 7850}}
+bodies: {block: {mesh: {box: {size: [1, 1, 1], divisions: [n, n, n]}, material: steel}}}
+simulation: {duration: 1 ms, step: 0.5 ms}
+""")
+    limited = ["sh", "-c", "ulimit -v 1000000; exec \"$@\"", "sh", PROGRAM]
+    result = subprocess.run([*limited, "sweep", "block.yaml", "--vary", "parameters.n=[2, 90, 3]", "-o", "out", "--json"], cwd=tmp_path,
+                            capture_output=True, text=True, timeout=120, check=False, stdin=subprocess.DEVNULL)
+    assert result.returncode == 4, result.stderr
+    variants = json.loads(result.stdout)["variants"]
+    assert [variant["status"] for variant in variants] == ["done", "failed", "done"]
+    assert "not enough memory" in variants[1]["message"] and "run fewer together" in variants[1]["message"]

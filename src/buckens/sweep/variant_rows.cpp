@@ -66,7 +66,7 @@ VariantRow VariantRows::run_one(const Variant& variant, Run& run) {
     return row;
   } catch (const std::exception& error) {
     outcome.status = VariantStatus::failed;
-    outcome.message = error.what();
+    outcome.message = reason_of(error);
   }
   row.cells = summary_cells(table_, variant, outcome);
   return row;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <new>
 #include <optional>
 
 #include <fmt/format.h>
@@ -125,8 +126,8 @@ class Sweep {
       auto out = std::make_shared<model::ModelDescription>(std::move(read.description));
       if (!holds_finished_run(directory_of(v), *out)) return out;
       end(v, VariantStatus::kept);
-    } catch (const Error& error) {
-      end(v, VariantStatus::failed, error.what());
+    } catch (const std::exception& error) {
+      end(v, VariantStatus::failed, reason_of(error));
     }
     return nullptr;
   }
@@ -146,7 +147,7 @@ class Sweep {
       const results::RunSummary summary = simulate(*built, *directory, options, checkpoint);
       return end(v, summary.finished ? VariantStatus::done : VariantStatus::interrupted);
     } catch (const std::exception& error) {
-      failure.interrupted = error.what();
+      failure.interrupted = reason_of(error);
     }
     if (directory) complete(*directory, failure);
     end(v, VariantStatus::failed, failure.interrupted);
@@ -262,6 +263,12 @@ std::string to_string(VariantStatus status) {
       break;
   }
   return "interrupted";
+}
+
+std::string reason_of(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error) == nullptr) return error.what();
+  return "there is not enough memory for this variant beside those that run with it; run fewer "
+         "together, use fewer elements, or a machine with more memory";
 }
 
 SweepOutcome run_variants(const fs::path& model, const std::vector<std::string>& overrides,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -25,6 +26,9 @@ enum class VariantStatus {
 };
 
 std::string to_string(VariantStatus status);
+
+/// Why a variant failed, for its row.
+std::string reason_of(const std::exception& error);
 
 struct VariantOutcome {
   std::string name;
