@@ -157,6 +157,15 @@ def test_continues_after_an_interruption(buckens, models, tmp_path):
     assert [v["status"] for v in result.json["variants"]] == ["kept", "done", "kept"]
 
 
+def test_runs_of_another_version_are_run_again(buckens, models, tmp_path):
+    h5py = pytest.importorskip("h5py")
+    call = ("sweep", models / "pendulum.yaml", "-o", "out", "--json", "--vary", "simulation.duration=[0.01, 0.02]")
+    buckens(*call).must(0)
+    with h5py.File(tmp_path / "out" / "001" / "results.h5", "r+") as file:
+        file.attrs["version"] = "0.0.9"
+    assert [variant["status"] for variant in buckens(*call).must(0).json["variants"]] == ["done", "kept"]
+
+
 DECK = """*INCLUDE, INPUT=nodes.inp
 *ELEMENT, TYPE=C3D8, ELSET=ALL
 1, 1, 2, 3, 4, 5, 6, 7, 8

@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether a directory holds the finished run of a model.
+/// Whether a directory holds the finished run of a model by this version.
 bool holds_finished_run(const fs::path& directory, const model::ModelDescription& model) {
   std::error_code error;
   if (!fs::is_regular_file(directory / run_store::kSummaryName, error)) return false;
@@ -40,7 +40,8 @@ bool holds_finished_run(const fs::path& directory, const model::ModelDescription
       files::read_text_file(directory / run_store::kModelName) == model.source;
   if (!is_wanted) return false;
   try {
-    return run_store::RunReader(directory).num_records() > 0;
+    const run_store::RunReader run(directory);
+    return run.version() == kVersion && run.num_records() > 0;
   } catch (const IoError&) {  // damaged since: it is run again
     return false;
   }
