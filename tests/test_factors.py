@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Factors kept on disk: the second run takes them, and no run trusts a file that is not whole."""
 
+import fcntl
+import os
+import time
+
 import pytest
 
 BLOCK = """\
@@ -60,3 +64,21 @@ def test_a_folder_that_cannot_be_written_stops_nothing(run, tmp_path):
     found, told = run("out", "--factors", "kept")
     assert "cannot be written" in told and "the run goes on without it" in told
     assert found == plain
+
+
+def test_what_killed_runs_left_is_removed(run, tmp_path):
+    """Incomplete files of old, which nobody is writing; with every other file of the folder as it is."""
+    kept = tmp_path / "kept"
+    kept.mkdir()
+    names = {"left": "0" * 32 + ".factor.123-0", "new": "1" * 32 + ".factor.124-0", "held": "2" * 32 + ".factor.125-0",
+             "whole": "3" * 32 + ".factor", "mine": "my.factor.txt"}
+    for what, name in names.items():
+        (kept / name).write_text("incomplete")
+        if what != "new":
+            os.utime(kept / name, (time.time() - 3600,) * 2)
+    with open(kept / names["held"]) as held:
+        fcntl.flock(held, fcntl.LOCK_EX)
+        run("first", "--factors", "kept")
+    assert not (kept / names["left"]).exists()
+    assert all((kept / names[what]).exists() for what in ("new", "held", "whole", "mine"))
+    assert len(list(kept.iterdir())) == 5

@@ -10,7 +10,8 @@ namespace buckens::linalg {
 ///
 /// A file is found by a hash of the whole matrix and checked by one of its own contents; whatever
 /// is missing, cut short or changed is computed anew. Files appear under their names when they are
-/// complete, so that concurrent runs may share a folder. They are never deleted.
+/// complete, so that concurrent runs may share a folder. They are never deleted; incomplete ones
+/// that killed processes have left are, when another factor is written.
 class FactorCache {
  public:
   /// @param folder made where it is missing; empty: none

@@ -3,13 +3,17 @@
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <string>
 #include <system_error>
 #include <vector>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include "buckens/base/log.h"
@@ -24,6 +28,7 @@ namespace {
 // Changes whenever the layout of panels or of this file changes.
 constexpr char kMagic[16] = "Buckens panel 2";
 constexpr std::uint64_t kByteOrder = 0x0102030405060708U;
+constexpr std::size_t kKeyLength = 32;
 
 template <class T>
 void add_run(ContentHash& hash, const T* values, std::size_t count) {
@@ -50,6 +55,45 @@ void warn(const fs::path& path, const std::string& what) {
   base::log(base::LogLevel::warning, fmt::format("stored factor {}: {}", path.string(), what));
 }
 
+// A file that its writer has not touched for so long, and does not hold, is left over.
+constexpr std::chrono::minutes kLeftAlone{10};
+
+/// Tells other processes that a file is being written, as long as it lives.
+class WriteMark {
+ public:
+  explicit WriteMark(const fs::path& path)
+      : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    holds_ = descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
+  }
+  ~WriteMark() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  WriteMark(const WriteMark&) = delete;
+  WriteMark& operator=(const WriteMark&) = delete;
+
+  /// Nobody else does, then.
+  bool holds() const { return holds_; }
+
+ private:
+  int descriptor_;
+  bool holds_;
+};
+
+/// Removes what processes have left that were killed while they wrote.
+void remove_left_over(const fs::path& folder) {
+  std::error_code problem;
+  std::vector<fs::path> found;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, problem)) {
+    const std::string name = entry.path().filename().string();
+    if (name.find(".factor.") == kKeyLength) found.push_back(entry.path());
+  }
+  for (const fs::path& path : found) {
+    const fs::file_time_type touched = fs::last_write_time(path, problem);
+    if (problem || fs::file_time_type::clock::now() - touched < kLeftAlone) continue;
+    if (WriteMark(path).holds()) fs::remove(path, problem);
+  }
+}
+
 /// A name that no other process or thread uses.
 fs::path aside(const fs::path& path) {
   static std::atomic<int> number{0};
@@ -66,7 +110,7 @@ struct PanelFile::PlainPanel {
 /// The fixed beginning of a file; the runs follow.
 struct PanelFile::Header {
   char magic[16] = {};
-  char key[32] = {};
+  char key[kKeyLength] = {};
   std::uint64_t byte_order = kByteOrder;
   std::int64_t size = 0, groups = 0, panels = 0, rows = 0, origins = 0, values = 0;
   std::int64_t places = 0;
@@ -130,7 +174,9 @@ void PanelFile::write(const PanelFactor& factor, double entries) const {
   const fs::path temporary = aside(path_);
   std::error_code problem;
   fs::create_directories(path_.parent_path(), problem);
+  remove_left_over(path_.parent_path());
   std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+  const WriteMark mark(temporary);
   const auto put = [&out](const auto* values, std::size_t count) {
     out.write(reinterpret_cast<const char*>(values),
               static_cast<std::streamsize>(count * sizeof *values));
