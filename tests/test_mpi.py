@@ -18,6 +18,7 @@ import numpy
 import pytest
 
 from conftest import MODELS, PROGRAM
+from models_of_many_variables import DECK, SHELLS, deck_with_links, grid_of_beams, linked_grid
 
 from test_solver import ITERATE, largest_difference, missing, sensors
 
@@ -44,56 +45,6 @@ joints: {ball: {spherical: {between: [ground, cube/bearing]}}}
 simulation: {duration: 0.5 ms, step: 0.1 ms}
 output: {every: 0.1 ms, sensors: {force: {joint-force: ball}, corner: {position: cube/corner_111}}}
 """
-
-SHELLS = """\
-buckens: 1
-title: A plate large enough to be distributed
-gravity: [0, 0, -9.81]
-materials: {steel: {E: 210 GPa, nu: 0.3, rho: 7850}}
-bodies:
-  plate:
-    at: {position: [0, -0.1, 0]}
-    mesh: {plate: {size: [0.2, 0.2], divisions: [58, 58], thickness: 2 mm}, material: steel}
-    interfaces: {edge: {set: [x0]}}
-joints: {hinge: {revolute: {between: [ground, plate/edge], axis: [0, 1, 0]}}}
-simulation: {duration: 0.5 ms, step: 0.1 ms}
-output: {every: 0.1 ms, sensors: {force: {joint-force: hinge}, corner: {position: plate/corner_11}}}
-"""
-
-
-
-def grid_of_beams(side=60):
-    """A square grid of beams, with bars, shells, masses and springs: each kind of elements that a body can have but solids."""
-
-    def node(i, j):
-        return f"n{i}_{j}"
-
-    places = [(i, j) for i in range(side) for j in range(side)]
-    nodes = {node(i, j): [0.01 * i, 0.01 * j, 0.0003 * ((3 * i + 5 * j) % 7)] for i, j in places}
-    beams = []
-    for i, j in places:
-        for a, b in ((i + 1, j), (i, j + 1)):
-            if a < side and b < side:
-                of = {"end-section": {"rectangle": {"width": 0.002, "height": 0.003}}} if (i + j) % 5 == 0 else {}
-                theory = {"theory": "timoshenko"} if j % 3 == 0 else {}
-                beams.append({"between": [node(i, j), node(a, b)], "section": "strip", "material": "steel", **of, **theory})
-    within = [(i, j) for i, j in places if i + 1 < side and j + 1 < side]
-    bars = [{"between": [node(i, j), node(i + 1, j + 1)], "area": 1e-6, "material": "steel"} for i, j in within if i % 4 == 1]
-    shells = [{"nodes": [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)], "thickness": 0.0005, "material": "steel"}
-              for i, j in within if j % 6 == 2]
-    masses = [{"at": node(i, j), "mass": 0.003} for i, j in places if (i * j) % 37 == 5]
-    springs = [{"between": [node(i, j), node(i + 1, j + 1)], "translation": [1e4, 2e4, 3e4], "rotation": [1, 2, 3]}
-               for i, j in within if j % 9 == 4]
-    return json.dumps({
-        "buckens": 1, "title": "A grid of beams large enough to be distributed", "gravity": [0, 0, -9.81],
-        "materials": {"steel": {"E": 210e9, "nu": 0.3, "rho": 7850, "damping": {"stiffness": 1e-5}}},
-        "sections": {"strip": {"rectangle": {"width": 0.003, "height": 0.002}}},
-        "bodies": {"grid": {"structure": {"nodes": nodes, "beams": beams, "bars": bars, "shells": shells, "masses": masses,
-                                          "links": {"springs": springs}}}},
-        "joints": {"hinge": {"revolute": {"between": ["ground", f"grid/{node(0, 0)}"], "axis": [0, 1, 0]}}},
-        "simulation": {"duration": 0.0005, "step": 0.0001},
-        "output": {"every": 0.0001, "sensors": {"force": {"joint-force": "hinge"}, "corner": {"position": f"grid/{node(side - 1, side - 1)}"}}}})
-
 
 PULL = "loads: {pull: {force: {on: cube/corner_111, value: [0, 0, 1 kN]}}}\n"
 
@@ -141,8 +92,16 @@ ALONE = {
     "shells": ("run", SHELLS, ()),
     "shells with a rigid edge": ("run", SHELLS, RIGID_EDGE),
     "beams": ("run", grid_of_beams(), ()),
+    "links": ("run", linked_grid(), ()),
+    "links of a deck": ("run", {"model.yaml": DECK, "cube.bdf": deck_with_links()}, ()),
     "static": ("static", CUBE.replace("{spherical:", "{fixed:") + PULL, ()),
 }
+
+
+def write(place, model):
+    """A model given by its text, or by files one of which is the model."""
+    for name, text in ({"model.yaml": model} if isinstance(model, str) else model).items():
+        (place / name).write_text(text)
 
 
 @pytest.fixture(scope="module")
@@ -151,8 +110,8 @@ def alone(tmp_path_factory):
     processors for itself."""
 
     def make(place, verb, model, arguments):
-        if isinstance(model, str):
-            (place / "model.yaml").write_text(model)
+        if not isinstance(model, pathlib.Path):
+            write(place, model)
             model = "model.yaml"
         subprocess.run([PROGRAM, verb, model, "-q", "-o", "one", *arguments], cwd=place, check=True, timeout=240, stdin=subprocess.DEVNULL)
         return place / "one"
@@ -265,10 +224,11 @@ def test_equal_bodies_share_what_is_divided(alone, mpirun, tmp_path):
 
 
 @several
-@pytest.mark.parametrize("count, name", [(2, "shells"), (3, "shells"), (2, "shells with a rigid edge"), (3, "beams")])
-def test_shells_and_beams(alone, mpirun, tmp_path, count, name):
+@pytest.mark.parametrize("count, name", [(2, "shells"), (3, "shells"), (2, "shells with a rigid edge"), (3, "beams"), (2, "links"),
+                                         (3, "links"), (3, "links of a deck")])
+def test_shells_beams_and_links(alone, mpirun, tmp_path, count, name):
     _, model, change = ALONE[name]
-    (tmp_path / "model.yaml").write_text(model)
+    write(tmp_path, model)
     must(mpirun(count, "run", "model.yaml", "-o", "several", *change))
     summary = json.loads((tmp_path / "several" / "summary.json").read_text())
     assert next(iter(summary["bodies"].values()))["dof"] >= 20000, "large enough to be distributed"
@@ -430,7 +390,7 @@ def test_too_little_memory_for_a_part_of_the_factor(tmp_path):
 
 
 @several
-@pytest.mark.parametrize("model", [CUBE, SHELLS, grid_of_beams()], ids=["solids", "shells", "beams"])
+@pytest.mark.parametrize("model", [CUBE, SHELLS, grid_of_beams(), linked_grid()], ids=["solids", "shells", "beams", "links"])
 def test_too_little_memory_for_making_columns(tmp_path, model):
     """Processes other than the first assemble M and K, so one of them lacks memory before there is a factor."""
     (tmp_path / "model.yaml").write_text(model)

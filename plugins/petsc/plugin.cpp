@@ -135,6 +135,10 @@ double plugin_inner_product(int count, const int* terms, const double* a, const 
 
 void plugin_diagonal(int matrix, double* values) { ranks()->diagonal(matrix, values); }
 
+void plugin_near_diagonal(int matrix, const int* lengths, double* values) {
+  ranks()->near_diagonal(matrix, lengths, values);
+}
+
 int plugin_marks(int count, const int* terms, unsigned long long* marks, char* error,
                  int error_size) {
   return ranks()->marks(count, terms, marks) ? 0 : fail(error, error_size);
@@ -187,12 +191,12 @@ void plugin_take_pair(int number, int pair, float* load, float* answer) {
 }
 
 const BuckensGridPlugin plugin = {
-    kBuckensGridVersion,  plugin_name,        plugin_make,         plugin_solve,   plugin_bytes,
-    plugin_release,       plugin_join,        plugin_serve,        plugin_leave,   plugin_traffic,
-    plugin_divide,        plugin_divide_rows, plugin_make_columns, plugin_add_up,  plugin_multiply,
-    plugin_inner_product, plugin_diagonal,    plugin_marks,        plugin_edges,   plugin_gather,
-    plugin_forget,        plugin_make_pairs,  plugin_project,      plugin_combine, plugin_put_pair,
-    plugin_take_pair};
+    kBuckensGridVersion,  plugin_name,        plugin_make,          plugin_solve,   plugin_bytes,
+    plugin_release,       plugin_join,        plugin_serve,         plugin_leave,   plugin_traffic,
+    plugin_divide,        plugin_divide_rows, plugin_make_columns,  plugin_add_up,  plugin_multiply,
+    plugin_inner_product, plugin_diagonal,    plugin_near_diagonal, plugin_marks,   plugin_edges,
+    plugin_gather,        plugin_forget,      plugin_make_pairs,    plugin_project, plugin_combine,
+    plugin_put_pair,      plugin_take_pair};
 
 }  // namespace
 

@@ -105,6 +105,7 @@ void Ranks::serve(const BuckensGridMaker& maker) {
       case Task::add_up:
       case Task::inner_product:
       case Task::diagonal:
+      case Task::near_diagonal:
       case Task::marks:
       case Task::edges:
       case Task::multiply:
@@ -149,6 +150,9 @@ void Ranks::serve_matrices(const Order& order) {
       break;
     case Task::diagonal:
       diagonal_together(order, nullptr);
+      break;
+    case Task::near_diagonal:
+      near_diagonal_together(order, nullptr, nullptr);
       break;
     case Task::marks:
       (void)marks_together(order, nullptr);

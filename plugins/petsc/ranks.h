@@ -51,6 +51,7 @@ class Ranks {
   /// Of the first: see BuckensGridPlugin.
   double inner_product(int count, const int* terms, const double* a, const double* b);
   void diagonal(int matrix, double* values);
+  void near_diagonal(int matrix, const int* lengths, double* values);
   bool marks(int count, const int* terms, unsigned long long* marks);
   /// @return pairs, which live until the next call; null after an error
   const std::vector<int>* edges(int count, const int* terms, const int* vertex);
@@ -101,6 +102,7 @@ class Ranks {
   void sum_facts(const Divided& matrix, BuckensGridFacts& facts);
   double inner_product_together(const Order& order, const double* a, const double* b);
   void diagonal_together(const Order& order, double* values);
+  void near_diagonal_together(const Order& order, const int* lengths, double* values);
   bool marks_together(const Order& order, unsigned long long* marks);
   bool edges_together(const Order& order, const int* vertex);
   void exchange_columns(const BuckensGridColumns* all, Divided& matrix);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Matrices of which each process makes its columns, and what the first one knows of them.
 #include <array>
+#include <numeric>
 
 #include "ranks_messages.h"
 #include "ranks_parts.h"
@@ -120,6 +121,41 @@ void Ranks::diagonal_together(const Order& order, double* values) {
               matrix.first.data(), MPI_DOUBLE, 0, work_);
   count_messages(count_ - 1, 0);
   traffic_.bytes += sizeof(double) * static_cast<double>(matrix.size);
+}
+
+void Ranks::near_diagonal(int matrix, const int* lengths, double* values) {
+  Order order;
+  order.task = Task::near_diagonal;
+  order.number = matrix;
+  give(order);
+  near_diagonal_together(order, lengths, values);
+}
+
+void Ranks::near_diagonal_together(const Order& order, const int* lengths, double* values) {
+  const Divided& matrix = *shared_->matrices.at(order.number);
+  const int columns = matrix.count();
+  std::vector<int> own(static_cast<std::size_t>(columns));
+  MPI_Scatterv(lengths, matrix.counts.data(), matrix.first.data(), MPI_INT, own.data(), columns,
+               MPI_INT, 0, work_);
+  std::vector<double> found(std::accumulate(own.begin(), own.end(), std::size_t{0}), 0.0);
+  double* of_column = found.data();
+  for (int k = 0; k < columns; ++k) {
+    for (int e = matrix.starts[k]; e < matrix.starts[k + 1]; ++e) {
+      const int below = matrix.variables[matrix.rows[e]] - matrix.variables[k];
+      if (below >= own[k]) break;
+      of_column[below] = matrix.values[e];
+    }
+    of_column += own[k];
+  }
+  std::vector<int> counts(static_cast<std::size_t>(count_), 0);
+  for (int k = 0; k < count_ && lengths != nullptr; ++k) {
+    counts[k] = std::accumulate(lengths + matrix.first[k], lengths + matrix.first[k + 1], 0);
+  }
+  const std::vector<int> first = starts_of(counts);
+  MPI_Gatherv(found.data(), static_cast<int>(found.size()), MPI_DOUBLE, values, counts.data(),
+              first.data(), MPI_DOUBLE, 0, work_);
+  count_messages(2 * (count_ - 1), 0);
+  traffic_.bytes += sizeof(int) * static_cast<double>(matrix.size) + sizeof(double) * first.back();
 }
 
 }  // namespace buckens_petsc

@@ -26,6 +26,7 @@ enum class Task : int {
   add_up,
   inner_product,
   diagonal,
+  near_diagonal,
   marks,
   edges,
   multiply,

@@ -21,7 +21,6 @@ namespace buckens::body {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using linalg::SparseMatrix;
 
 namespace {
 
@@ -31,17 +30,46 @@ constexpr double kMassless = 1e-12;
 // Nodes around a loose one that are looked at first: those of one element.
 constexpr std::size_t kFewest = 8;
 
-/// The entries of a symmetric matrix between these variables.
-MatrixXd block_of(const SparseMatrix& A, const std::vector<int>& variables) {
-  const auto count = static_cast<Eigen::Index>(variables.size());
-  MatrixXd out(count, count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    for (Eigen::Index j = 0; j < count; ++j) {
-      out(i, j) =
-          A.coeff(variables[static_cast<std::size_t>(i)], variables[static_cast<std::size_t>(j)]);
-    }
+/// The variables of a node, which follow each other where links are solved.
+struct OwnVariables {
+  int first = 0, count = 0;
+  std::array<int, 6> kinds{};  // 0…2 translations, 3…5 rotations
+};
+
+OwnVariables variables_of(const fem::DofMap& dofs, int node) {
+  OwnVariables out;
+  for (int k = 0; k < 6; ++k) {
+    const int dof = dofs.node_dofs[static_cast<std::size_t>(node)][static_cast<std::size_t>(k)];
+    if (dof < 0) continue;
+    if (out.count == 0) out.first = dof;
+    out.kinds[static_cast<std::size_t>(out.count++)] = k;
   }
   return out;
+}
+
+/// Calls visit(node, block) with the entries of a symmetric matrix between the variables of each of
+/// these nodes, which are all that is read of it.
+template <class Visit>
+void visit_blocks(const linalg::SymmetricMatrix& A, const fem::DofMap& dofs,
+                  const std::vector<int>& nodes, Visit&& visit) {
+  if (nodes.empty()) return;
+  std::vector<int> lengths(static_cast<std::size_t>(dofs.num_dofs), 0);
+  for (const int node : nodes) {
+    const OwnVariables own = variables_of(dofs, node);
+    for (int k = 0; k < own.count; ++k) {
+      lengths[static_cast<std::size_t>(own.first + k)] = own.count - k;
+    }
+  }
+  const VectorXd entries = A.near_diagonal(lengths);
+  const double* next = entries.data();
+  for (const int node : nodes) {
+    const int count = variables_of(dofs, node).count;
+    MatrixXd block(count, count);
+    for (int column = 0; column < count; ++column) {
+      for (int row = column; row < count; ++row) block(row, column) = block(column, row) = *next++;
+    }
+    visit(node, block);
+  }
 }
 
 /// Roots of the diagonal; variables without an entry stand for themselves.
@@ -206,34 +234,36 @@ class Follower {
 }  // namespace
 
 std::vector<LooseMotion> loose_motions(const fem::FeModel& fe) {
+  std::vector<int> nodes;
+  for (int node = 0; node < static_cast<int>(fe.dofs.node_dofs.size()); ++node) {
+    if (variables_of(fe.dofs, node).count > 0) nodes.push_back(node);
+  }
+  std::vector<int> light;
+  std::vector<MatrixXd> massless;  // motions of each of these
+  visit_blocks(fe.M, fe.dofs, nodes, [&](int node, const MatrixXd& M) {
+    if (has_mass_everywhere(M)) return;
+    MatrixXd own = unresisted(M, MatrixXd::Identity(M.rows(), M.cols()));
+    if (own.cols() == 0) return;
+    light.push_back(node);
+    massless.push_back(std::move(own));
+  });
   std::vector<LooseMotion> out;
-  for (std::size_t node = 0; node < fe.dofs.node_dofs.size(); ++node) {
-    std::vector<int> own, variables;
-    for (int k = 0; k < 6; ++k) {
-      const int dof = fe.dofs.node_dofs[node][static_cast<std::size_t>(k)];
-      if (dof < 0) continue;
-      own.push_back(dof);
-      variables.push_back(k);
-    }
-    if (own.empty()) continue;
-    const auto count = static_cast<Eigen::Index>(own.size());
-    const MatrixXd M = block_of(fe.M, own);
-    if (has_mass_everywhere(M)) continue;
-    const MatrixXd massless = unresisted(M, MatrixXd::Identity(count, count));
-    if (massless.cols() == 0) continue;
-    const MatrixXd loose = unresisted(block_of(fe.K, own), massless);
+  auto next = massless.cbegin();
+  visit_blocks(fe.K, fe.dofs, light, [&](int node, const MatrixXd& K) {
+    const OwnVariables own = variables_of(fe.dofs, node);
+    const MatrixXd loose = unresisted(K, *next++);
     for (Eigen::Index z = 0; z < loose.cols(); ++z) {
-      LooseMotion motion{static_cast<int>(node), Eigen::Matrix<double, 6, 1>::Zero()};
+      LooseMotion motion{node, Eigen::Matrix<double, 6, 1>::Zero()};
       const double largest = loose.col(z).cwiseAbs().maxCoeff();
-      for (Eigen::Index k = 0; k < count; ++k) {
+      for (int k = 0; k < own.count; ++k) {
         // What is left by rounding would couple variables that have nothing to do with it.
         const double share = loose(k, z) / largest;
         if (std::abs(share) < 1e-13) continue;
-        motion.variables[variables[static_cast<std::size_t>(k)]] = share;
+        motion.variables[own.kinds[static_cast<std::size_t>(k)]] = share;
       }
       out.push_back(motion);
     }
-  }
+  });
   return out;
 }
 

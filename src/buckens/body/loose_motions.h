@@ -19,8 +19,9 @@ struct LooseMotion {
   Eigen::Matrix<double, 6, 1> variables;  ///< 0 where the node has none
 };
 
-/// The loose motions of all nodes, those of one node independent of each other.
-/// @param fe after its links are solved
+/// The loose motions of all nodes, those of one node independent of each other. Of M and K the
+/// entries between variables of one node are read, from the diagonal down.
+/// @param fe after its links are solved: variables of a node follow each other
 std::vector<LooseMotion> loose_motions(const fem::FeModel& fe);
 
 /// Makes loose motions follow the rigid motion that fits the elements nearest to their node best.

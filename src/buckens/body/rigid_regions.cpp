@@ -187,6 +187,7 @@ LinkedPart with_links(const std::string& body, FlexiblePart& part,
       more.equations.push_back(std::move(equation));
     }
     elimination = Condensation(*full, regions, more);
+    fe = {};  // its matrices make room
     fe = condensed(*full, elimination);
     out.note = loose_motions_note(*full, loose);
   }

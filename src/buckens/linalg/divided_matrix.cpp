@@ -5,6 +5,7 @@
 #include <cmath>
 #include <mutex>
 #include <new>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -132,6 +133,13 @@ SparseMatrix DividedMatrix::gathered() const {
   out.resizeNonZeros(entries());
   const std::scoped_lock lock(turn_of_grid_solver());
   grid_solver().gather(number_, out.outerIndexPtr(), out.innerIndexPtr(), out.valuePtr());
+  return out;
+}
+
+Vector DividedMatrix::near_diagonal(std::span<const int> lengths) const {
+  Vector out(std::accumulate(lengths.begin(), lengths.end(), Eigen::Index{0}));
+  const std::scoped_lock lock(turn_of_grid_solver());
+  grid_solver().near_diagonal(number_, lengths.data(), out.data());
   return out;
 }
 

@@ -48,6 +48,8 @@ class DividedMatrix {
   Eigen::Index size() const { return diagonal_.size(); }
   Eigen::Index entries() const { return facts_.entries; }
   const Vector& diagonal() const { return diagonal_; }
+  /// See SymmetricMatrix.
+  Vector near_diagonal(std::span<const int> lengths) const;
   double norm() const;
   std::array<std::uint64_t, 2> content() const { return {facts_.content[0], facts_.content[1]}; }
 

@@ -7,7 +7,7 @@
 extern "C" {
 
 /// Rises with every change of what stands here.
-enum { kBuckensGridVersion = 7 };
+enum { kBuckensGridVersion = 8 };
 
 /// Products that one order may ask for.
 enum { kBuckensMostProducts = 8 };
@@ -129,6 +129,9 @@ struct BuckensGridPlugin {
   /// The sum of the products of all entries of two sums of divided matrices.
   double (*inner_product)(int count, const int* terms, const double* a, const double* b);
   void (*diagonal)(int matrix, double* values);
+  /// Of each column of a symmetric matrix so many entries from the diagonal on, column after
+  /// column; zeros where there are none.
+  void (*near_diagonal)(int matrix, const int* lengths, double* values);
   /// A number for the rows that have an entry, of each column of a sum of divided matrices: the
   /// same for columns with the same rows, and hardly ever otherwise.
   int (*marks)(int count, const int* terms, unsigned long long* marks, char* error, int error_size);

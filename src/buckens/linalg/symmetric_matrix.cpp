@@ -2,6 +2,7 @@
 #include "buckens/linalg/symmetric_matrix.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,18 @@ Eigen::Index SymmetricMatrix::nonZeros() const {
 
 Vector SymmetricMatrix::diagonal() const {
   return divided_ ? divided_->diagonal() : Vector(here_.diagonal());
+}
+
+Vector SymmetricMatrix::near_diagonal(std::span<const int> lengths) const {
+  if (divided_) return divided_->near_diagonal(lengths);
+  Vector out(std::accumulate(lengths.begin(), lengths.end(), Eigen::Index{0}));
+  Eigen::Index next = 0;
+  for (Eigen::Index column = 0; column < here_.cols(); ++column) {
+    for (int k = 0; k < lengths[static_cast<std::size_t>(column)]; ++k) {
+      out[next++] = here_.coeff(column + k, column);
+    }
+  }
+  return out;
 }
 
 double SymmetricMatrix::norm() const { return divided_ ? divided_->norm() : here_.norm(); }

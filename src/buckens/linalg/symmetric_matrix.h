@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "buckens/linalg/matrix_types.h"
@@ -44,6 +45,9 @@ class SymmetricMatrix {
   Eigen::Index cols() const { return here_.cols(); }
   Eigen::Index nonZeros() const;
   Vector diagonal() const;
+  /// Of each column the entries of so many rows from the diagonal on, column after column, without
+  /// bringing anything else back. @pre a length for each column, none beyond the last row
+  Vector near_diagonal(std::span<const int> lengths) const;
   /// Of Frobenius.
   double norm() const;
 

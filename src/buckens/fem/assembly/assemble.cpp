@@ -211,8 +211,7 @@ FeModel assemble(const Structure& structure, std::optional<spatial::Plane> plana
 
   const SparseMatrix flywheel = integrate_inertia(fe.blocks, mesh, fe);
   set_mass_damping(fe);
-  // Links are eliminated, for which matrices are whole.
-  if (linalg::is_shared_work(fe.dofs.num_dofs) && structure.links.empty()) {
+  if (linalg::is_shared_work(fe.dofs.num_dofs)) {
     let_others_make(mesh, fe);
     return fe;
   }

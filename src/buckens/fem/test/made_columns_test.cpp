@@ -170,16 +170,8 @@ SparseMatrix with_rigid_nodes(const FeModel& fe, const std::vector<int>& nodes) 
   return T;
 }
 
-TEST(MadeColumnsOfBodyTest, OfVariablesThatFollowOthers) {
-  Structure s;
-  add_box(s, {{0, 0, 0}, {0.4, 0.3, 0.2}, {12, 10, 10}}, crossed(),
-          SolidForm::usual(SolidKind::hex8));
-  distort(s, 0.002);
-  s.masses.add(5, 0.3);
-  const FeModel fe = assemble(s);
+void expect_same_matrices_of_those_that_follow(const FeModel& fe, const SparseMatrix& T) {
   const MeshView mesh{fe.nodes, fe.dofs};
-  // Nodes of distant elements, and one between two that stay.
-  const SparseMatrix T = with_rigid_nodes(fe, {0, 1, 2, 40, 700, 1000});
   const Following rows = T;
   const auto n = static_cast<int>(T.cols());
   const std::array<int, 5> runs = {0, n / 3 + 1, n / 2, n - 4, n};
@@ -193,6 +185,37 @@ TEST(MadeColumnsOfBodyTest, OfVariablesThatFollowOthers) {
       expect_columns(made_columns(description, runs[k], runs[k + 1]), expected, runs[k]);
     }
   }
+}
+
+Structure distorted_box() {
+  Structure s;
+  add_box(s, {{0, 0, 0}, {0.4, 0.3, 0.2}, {12, 10, 10}}, crossed(),
+          SolidForm::usual(SolidKind::hex8));
+  distort(s, 0.002);
+  s.masses.add(5, 0.3);
+  return s;
+}
+
+TEST(MadeColumnsOfBodyTest, OfVariablesThatFollowOthers) {
+  const FeModel fe = assemble(distorted_box());
+  // Nodes of distant elements, and one between two that stay.
+  expect_same_matrices_of_those_that_follow(fe, with_rigid_nodes(fe, {0, 1, 2, 40, 700, 1000}));
+}
+
+TEST(MadeColumnsOfBodyTest, OfVariablesThatFollowMeansAndEquations) {
+  Structure s = distorted_box();
+  const int hub = add_node(s, "hub", {0.5, 0.1, 0.1});
+  const int twin = add_node(s, "twin", s.nodes[30].position);
+  const int arm = add_node(s, "arm", {0.1, 0.1, 0.7});
+  s.masses.add(hub, 0.7, Eigen::Vector3d(0.1, 0.2, 0.3).asDiagonal());
+  s.masses.add(twin, 0.2);
+  s.masses.add(arm, 0.1, Eigen::Vector3d(0.3, 0.2, 0.1).asDiagonal());
+  s.links.averages.push_back({"mean", hub, {0, 12, 400, 1200, 1500}, {1, 2, 1, 3, 1}, {}, {}});
+  s.links.averages.back().variables.fill(true);
+  s.links.rigid.push_back({"arm", hub, {arm}});
+  for (int k = 0; k < 3; ++k) s.links.equations.push_back({"tie", {{twin, k, 1}, {30, k, -1}}});
+  const FeModel fe = assemble(s);
+  expect_same_matrices_of_those_that_follow(fe, eliminate(fe.nodes, fe.dofs, s.links).T);
 }
 
 TEST(MadeColumnsOfBodyTest, KeepEachElementsMaterial) {

@@ -2,8 +2,10 @@
 // In a process by itself; over several: tests/test_mpi.py.
 #include "buckens/linalg/symmetric_matrix.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -59,6 +61,19 @@ TEST(SymmetricMatrix, IsEqualWhereAllBitsAre) {
   EXPECT_FALSE(A == SymmetricMatrix(changed));
   EXPECT_NE(A.content(), SymmetricMatrix(changed).content());
   EXPECT_FALSE(A == SymmetricMatrix(matrices::grid(3, 0.3)));
+}
+
+TEST(SymmetricMatrix, TellsEntriesNearItsDiagonal) {
+  const SparseMatrix A = matrices::grid(4, 0.3);
+  const auto n = static_cast<int>(A.cols());
+  std::vector<int> lengths;
+  std::vector<double> expected;
+  for (int column = 0; column < n; ++column) {
+    lengths.push_back(std::min((7 * column) % 6, n - column));
+    for (int k = 0; k < lengths.back(); ++k) expected.push_back(A.coeff(column + k, column));
+  }
+  const Vector found = SymmetricMatrix(A).near_diagonal(lengths);
+  EXPECT_EQ(std::vector<double>(found.begin(), found.end()), expected);
 }
 
 TEST(SymmetricMatrix, IsATermOfASum) {

@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Bodies large enough to be distributed over processes, of each kind of elements and links (test_mpi.py)."""
+
+import json
+
+SHELLS = """\
+buckens: 1
+title: A plate large enough to be distributed
+gravity: [0, 0, -9.81]
+materials: {steel: {E: 210 GPa, nu: 0.3, rho: 7850}}
+bodies:
+  plate:
+    at: {position: [0, -0.1, 0]}
+    mesh: {plate: {size: [0.2, 0.2], divisions: [58, 58], thickness: 2 mm}, material: steel}
+    interfaces: {edge: {set: [x0]}}
+joints: {hinge: {revolute: {between: [ground, plate/edge], axis: [0, 1, 0]}}}
+simulation: {duration: 0.5 ms, step: 0.1 ms}
+output: {every: 0.1 ms, sensors: {force: {joint-force: hinge}, corner: {position: plate/corner_11}}}
+"""
+
+
+def grid_of_beams(side=60):
+    """A square grid of beams, with bars, shells, masses and springs: each kind of elements that a body can have but solids."""
+
+    def node(i, j):
+        return f"n{i}_{j}"
+
+    places = [(i, j) for i in range(side) for j in range(side)]
+    nodes = {node(i, j): [0.01 * i, 0.01 * j, 0.0003 * ((3 * i + 5 * j) % 7)] for i, j in places}
+    beams = []
+    for i, j in places:
+        for a, b in ((i + 1, j), (i, j + 1)):
+            if a < side and b < side:
+                of = {"end-section": {"rectangle": {"width": 0.002, "height": 0.003}}} if (i + j) % 5 == 0 else {}
+                theory = {"theory": "timoshenko"} if j % 3 == 0 else {}
+                beams.append({"between": [node(i, j), node(a, b)], "section": "strip", "material": "steel", **of, **theory})
+    within = [(i, j) for i, j in places if i + 1 < side and j + 1 < side]
+    bars = [{"between": [node(i, j), node(i + 1, j + 1)], "area": 1e-6, "material": "steel"} for i, j in within if i % 4 == 1]
+    shells = [{"nodes": [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)], "thickness": 0.0005, "material": "steel"}
+              for i, j in within if j % 6 == 2]
+    masses = [{"at": node(i, j), "mass": 0.003} for i, j in places if (i * j) % 37 == 5]
+    springs = [{"between": [node(i, j), node(i + 1, j + 1)], "translation": [1e4, 2e4, 3e4], "rotation": [1, 2, 3]}
+               for i, j in within if j % 9 == 4]
+    return json.dumps({
+        "buckens": 1, "title": "A grid of beams large enough to be distributed", "gravity": [0, 0, -9.81],
+        "materials": {"steel": {"E": 210e9, "nu": 0.3, "rho": 7850, "damping": {"stiffness": 1e-5}}},
+        "sections": {"strip": {"rectangle": {"width": 0.003, "height": 0.002}}},
+        "bodies": {"grid": {"structure": {"nodes": nodes, "beams": beams, "bars": bars, "shells": shells, "masses": masses,
+                                          "links": {"springs": springs}}}},
+        "joints": {"hinge": {"revolute": {"between": ["ground", f"grid/{node(0, 0)}"], "axis": [0, 1, 0]}}},
+        "simulation": {"duration": 0.0005, "step": 0.0001},
+        "output": {"every": 0.0001, "sensors": {"force": {"joint-force": "hinge"}, "corner": {"position": f"grid/{node(side - 1, side - 1)}"}}}})
+
+
+def linked_grid():
+    """The same with links of each kind, one of which leaves a node motions that nothing holds."""
+    model = json.loads(grid_of_beams())
+    structure = model["bodies"]["grid"]["structure"]
+    structure["nodes"].update({"hub": [0.3, 0.3, 0.05], "mean": [0.2, 0.2, 0.02], "twin": structure["nodes"]["n5_50"], "far": [0.05, 0.6, 0.01]})
+    structure["beams"].append({"between": ["twin", "far"], "elements": 2, "section": "strip", "material": "steel"})
+    structure["masses"].append({"at": "hub", "mass": 0.1, "inertia": [1e-5, 1e-5, 1e-5]})
+    variables = ("x", "y", "z", "rotation-x", "rotation-y", "rotation-z")
+    structure["links"].update({
+        "rigid": [{"reference": "hub", "nodes": ["n29_29", "n29_31", "n31_29", "n31_31", "n10_50"]}],
+        "averages": [{"reference": "mean", "nodes": ["n3_3", "n40_3", "n20_40", "n50_50"], "variables": ["z"]}],
+        "equations": [{"terms": [{"node": "twin", "variable": v}, {"node": "n5_50", "variable": v, "coefficient": -1}]} for v in variables]})
+    model["output"]["sensors"].update({"hub": {"position": "grid/hub"}, "mean": {"position": "grid/mean"}})
+    return json.dumps(model)
+
+
+def deck_with_links(side=19):
+    """A cube of solids with what decks have in place of joints: a spider on one face, a mass on the mean of another."""
+    at = {}
+    lines = []
+    for i, j, k in ((i, j, k) for k in range(side + 1) for j in range(side + 1) for i in range(side + 1)):
+        at[i, j, k] = len(at) + 1
+        lines.append(f"GRID,{at[i, j, k]},,{0.1 * i / side:.6f},{0.1 * j / side:.6f},{0.1 * k / side:.6f}")
+    corners = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))
+    for e, (i, j, k) in enumerate((i, j, k) for k in range(side) for j in range(side) for i in range(side)):
+        nodes = [at[i + a, j + b, k + c] for a, b, c in corners]
+        lines.append(f"CHEXA,{e + 1},1,{','.join(map(str, nodes[:6]))}\n,{nodes[6]},{nodes[7]}")
+
+    def continued(card, words):
+        words = card.split(",") + [str(word) for word in words]
+        return "\n".join([",".join(words[:9])] + ["," + ",".join(words[k:k + 8]) for k in range(9, len(words), 8)])
+
+    def face(i):
+        return [at[i, j, k] for j in range(side + 1) for k in range(side + 1)]
+
+    hub, end = len(at) + 1, len(at) + 2
+    lines += [f"GRID,{hub},,-0.02,0.05,0.05", f"GRID,{end},,0.13,0.05,0.05", f"CONM2,90001,{end},,0.5"]
+    lines += [continued(f"RBE2,90002,{hub},123456", face(0)), continued(f"RBE3,90003,,{end},123456,1.,123", face(side))]
+    return "\n".join([*lines, "PSOLID,1,1", "MAT1,1,2.1E11,,0.3,7850.", "ENDDATA", ""])
+
+
+DECK = """\
+buckens: 1
+title: A cube of a deck large enough to be distributed
+gravity: [0, -9.81, 0]
+bodies:
+  cube:
+    at: {position: [0.02, -0.05, -0.05]}
+    mesh: {file: cube.bdf, length-unit: m, mass-unit: kg}
+    damping: {mass: 20, stiffness: 0.01 ms}
+    markers: {hub: {position: [-0.02, 0.05, 0.05]}, end: {position: [0.13, 0.05, 0.05]}}
+joints: {hinge: {revolute: {between: [ground, cube/hub], axis: [0, 0, 1]}}}
+simulation: {duration: 0.5 ms, step: 0.1 ms}
+output: {every: 0.1 ms, sensors: {force: {joint-force: hinge}, end: {position: cube/end}}}
+"""
