@@ -17,6 +17,11 @@ void put_counts(std::vector<std::int64_t>& out, const std::vector<Number>& value
   out.assign(values.begin(), values.end());
 }
 
+template <class Numbers>
+bool are_finite(const Numbers& values) {
+  return std::all_of(values.begin(), values.end(), [](auto value) { return std::isfinite(value); });
+}
+
 }  // namespace
 
 SaveVisit SaveVisit::inside(const std::string& name) const {
@@ -36,13 +41,16 @@ const std::vector<double>& SaveVisit::find_numbers(const std::string& name) cons
 const std::vector<double>& SaveVisit::find_numbers(const std::string& name,
                                                    std::size_t size) const {
   const std::vector<double>& values = find_numbers(name);
+  require(name, values, size);
+  return values;
+}
+
+template <class Numbers>
+void SaveVisit::require(const std::string& name, const Numbers& values, std::size_t size) const {
   if (values.size() != size) {
     refuse(name, fmt::format("it has {} values, expected {}", values.size(), size));
   }
-  const bool is_finite =
-      std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
-  if (!is_finite) refuse(name, "it holds a value that is not finite");
-  return values;
+  if (!are_finite(values)) refuse(name, "it holds a value that is not finite");
 }
 
 void SaveVisit::numbers(const std::string& name, std::span<double> values) const {
@@ -90,6 +98,22 @@ void SaveVisit::vector(const std::string& name, Eigen::VectorXd& value, Eigen::I
   } else {
     out_->numbers[prefix_ + name].assign(value.data(), value.data() + value.size());
   }
+}
+
+void SaveVisit::vector(const std::string& name, Eigen::VectorXf& value, Eigen::Index size) const {
+  if (!is_restoring()) {
+    out_->singles[prefix_ + name].assign(value.data(), value.data() + value.size());
+    return;
+  }
+  const auto found = from_->singles.find(prefix_ + name);
+  if (found == from_->singles.end()) {  // it comes from a file
+    Eigen::VectorXd numbers;
+    vector(name, numbers, size);
+    value = numbers.cast<float>();
+    return;
+  }
+  require(name, found->second, static_cast<std::size_t>(size));
+  value = Eigen::Map<const Eigen::VectorXf>(found->second.data(), size);
 }
 
 void SaveVisit::vector_or_none(const std::string& name, Eigen::VectorXd& value,

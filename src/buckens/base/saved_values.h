@@ -16,6 +16,9 @@ namespace buckens::base {
 /// "state/bodies/0/d".
 struct SavedValues {
   std::map<std::string, std::vector<double>> numbers;
+  /// Numbers that single precision holds exactly, in half of the memory. Files have them among
+  /// `numbers`.
+  std::map<std::string, std::vector<float>> singles;
   std::map<std::string, std::vector<std::int64_t>> counts;
   std::map<std::string, std::vector<std::string>> texts;
 
@@ -52,6 +55,7 @@ class SaveVisit {
   void rotation(const std::string& name, Eigen::Quaterniond& q) const;
   /// A vector that must have this size when restored.
   void vector(const std::string& name, Eigen::VectorXd& value, Eigen::Index size) const;
+  void vector(const std::string& name, Eigen::VectorXf& value, Eigen::Index size) const;
   /// The same for a vector that may also be empty.
   void vector_or_none(const std::string& name, Eigen::VectorXd& value, Eigen::Index size) const;
   void list(const std::string& name, std::vector<double>& values, std::size_t size) const;
@@ -72,6 +76,8 @@ class SaveVisit {
       : out_(out), from_(from), prefix_(std::move(prefix)) {}
   const std::vector<double>& find_numbers(const std::string& name) const;
   const std::vector<double>& find_numbers(const std::string& name, std::size_t size) const;
+  template <class Numbers>
+  void require(const std::string& name, const Numbers& values, std::size_t size) const;
 
   SavedValues* out_;
   const SavedValues* from_;

@@ -181,14 +181,11 @@ void RecycledSolves::visit_saved(const base::SaveVisit& visit) {
 }
 
 void RecycledSolves::visit_pair(const base::SaveVisit& visit, int pair) {
-  VectorXf kept_load, kept_answer;
-  if (!visit.is_restoring()) pairs_->take(pair, kept_load, kept_answer);
-  Vector load = kept_load.cast<double>();
-  Vector answer = kept_answer.cast<double>();
+  VectorXf load, answer;
+  if (!visit.is_restoring()) pairs_->take(pair, load, answer);
   visit.vector("load", load, rows());
   visit.vector("answer", answer, rows());
-  if (!visit.is_restoring()) return;
-  pairs_->put(pair, 1.0F, load.cast<float>(), answer.cast<float>(), nullptr);
+  if (visit.is_restoring()) pairs_->put(pair, 1.0F, load, answer, nullptr);
 }
 
 }  // namespace buckens::linalg

@@ -46,6 +46,7 @@ Hdf5Handle settings_in_memory() {
 }
 
 hid_t type_of(double) { return H5T_IEEE_F64LE; }
+hid_t type_of(float) { return H5T_IEEE_F32LE; }
 hid_t type_of(std::int64_t) { return H5T_STD_I64LE; }
 hid_t type_of(std::uint8_t) { return H5T_STD_U8LE; }
 
@@ -56,67 +57,123 @@ Hdf5Handle without_times(hid_t kind) {
   return settings;
 }
 
+/// Makes a data set of one dimension.
 template <class Number>
-void put(hid_t group, const char* name, const std::vector<Number>& values) {
-  const hsize_t extent = values.size();
+Hdf5Handle data_set(hid_t group, const char* name, std::size_t size) {
+  const hsize_t extent = size;
   const Hdf5Handle space(H5Screate_simple(1, &extent, nullptr), H5Sclose);
-  const Hdf5Handle set(sound(H5Dcreate2(group, name, type_of(Number{}), space.get(), H5P_DEFAULT,
-                                        without_times(H5P_DATASET_CREATE).get(), H5P_DEFAULT),
-                             "write a data set"),
-                       H5Dclose);
+  return {sound(H5Dcreate2(group, name, type_of(Number{}), space.get(), H5P_DEFAULT,
+                           without_times(H5P_DATASET_CREATE).get(), H5P_DEFAULT),
+                "write a data set"),
+          H5Dclose};
+}
+
+/// Where a list is in a data set, for H5Dwrite() and H5Dread().
+struct Place {
+  Place(hid_t set, hsize_t first, hsize_t count)
+      : there(H5Dget_space(set), H5Sclose), here(H5Screate_simple(1, &count, nullptr), H5Sclose) {
+    sound(H5Sselect_hyperslab(there.get(), H5S_SELECT_SET, &first, nullptr, &count, nullptr),
+          "find a list");
+  }
+
+  Hdf5Handle there, here;
+};
+
+template <class Number>
+void put_at(hid_t set, std::size_t first, const std::vector<Number>& values) {
   if (values.empty()) return;
-  sound(H5Dwrite(set.get(), type_of(Number{}), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+  const Place place(set, first, values.size());
+  sound(H5Dwrite(set, type_of(Number{}), place.here.get(), place.there.get(), H5P_DEFAULT,
+                 values.data()),
         "write a data set");
 }
 
-/// @param most entries that the file can hold at all
 template <class Number>
-std::vector<Number> take(hid_t group, const char* name, std::size_t most) {
-  const Hdf5Handle set(sound(H5Dopen2(group, name, H5P_DEFAULT), "find a data set"), H5Dclose);
-  const Hdf5Handle type(H5Dget_type(set.get()), H5Tclose);
-  const Hdf5Handle space(H5Dget_space(set.get()), H5Sclose);
-  if (H5Tequal(type.get(), type_of(Number{})) <= 0) throw IoError("a data set has another type");
-  hsize_t extent = 0;
-  if (H5Sget_simple_extent_ndims(space.get()) != 1 ||
-      H5Sget_simple_extent_dims(space.get(), &extent, nullptr) != 1 || extent > most) {
-    throw IoError("a data set has another shape");
-  }
-  std::vector<Number> values(extent);
-  if (values.empty()) return values;
-  sound(H5Dread(set.get(), type_of(Number{}), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
-        "read a data set");
-  return values;
+void put(hid_t group, const char* name, const std::vector<Number>& values) {
+  put_at(data_set<Number>(group, name, values.size()).get(), 0, values);
 }
+
+/// A data set of one dimension that is there.
+template <class Number>
+class FoundSet {
+ public:
+  /// @param most entries that the file can hold at all
+  FoundSet(hid_t group, const char* name, std::size_t most)
+      : set_(sound(H5Dopen2(group, name, H5P_DEFAULT), "find a data set"), H5Dclose) {
+    const Hdf5Handle type(H5Dget_type(set_.get()), H5Tclose);
+    const Hdf5Handle space(H5Dget_space(set_.get()), H5Sclose);
+    if (H5Tequal(type.get(), type_of(Number{})) <= 0) {
+      throw IoError("a data set has another type");
+    }
+    hsize_t extent = 0;
+    if (H5Sget_simple_extent_ndims(space.get()) != 1 ||
+        H5Sget_simple_extent_dims(space.get(), &extent, nullptr) != 1 || extent > most) {
+      throw IoError("a data set has another shape");
+    }
+    size_ = extent;
+  }
+
+  std::size_t size() const { return size_; }
+  std::vector<Number> take(std::size_t first, std::size_t count) const {
+    std::vector<Number> values(count);
+    if (values.empty()) return values;
+    const Place place(set_.get(), first, count);
+    sound(H5Dread(set_.get(), type_of(Number{}), place.here.get(), place.there.get(), H5P_DEFAULT,
+                  values.data()),
+          "read a data set");
+    return values;
+  }
+  std::vector<Number> all() const { return take(0, size_); }
+
+ private:
+  Hdf5Handle set_;
+  std::size_t size_ = 0;
+};
 
 std::vector<std::uint8_t> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
 
-template <class Map>
-void put_group(hid_t file, const char* name, const Map& map) {
+/// Lists are long: they are written and read one by one, and never put together here.
+/// @param first its numbers have the type of the file, to which HDF5 converts others
+template <class Map, class... Maps>
+void put_group(hid_t file, const char* name, const Map& first, const Maps&... more) {
   const Hdf5Handle group(
       sound(H5Gcreate2(file, name, H5P_DEFAULT, without_times(H5P_GROUP_CREATE).get(), H5P_DEFAULT),
             "write a group"),
       H5Gclose);
+  const auto visit = [&](auto&& visitor) {
+    const auto visit_lists = [&visitor](const auto& map) {
+      for (const auto& [path, list] : map) visitor(path, list);
+    };
+    visit_lists(first);
+    (visit_lists(more), ...);
+  };
   std::string names;
   std::vector<std::int64_t> lengths;
-  typename Map::mapped_type values;
-  for (const auto& [path, list] : map) {
+  std::size_t size = 0;
+  visit([&](const std::string& path, const auto& list) {
     names += path + '\n';
     lengths.push_back(static_cast<std::int64_t>(list.size()));
-    values.insert(values.end(), list.begin(), list.end());
-  }
+    size += list.size();
+  });
   put(group.get(), "names", bytes_of(names));
   put(group.get(), "lengths", lengths);
-  put(group.get(), "values", values);
+  const Hdf5Handle values =
+      data_set<typename Map::mapped_type::value_type>(group.get(), "values", size);
+  std::size_t at = 0;
+  visit([&](const std::string&, const auto& list) {
+    put_at(values.get(), at, list);
+    at += list.size();
+  });
 }
 
 template <class Map>
 void take_group(hid_t file, const char* name, std::size_t size, Map& map) {
-  using List = typename Map::mapped_type;
+  using Number = typename Map::mapped_type::value_type;
   const Hdf5Handle group(sound(H5Gopen2(file, name, H5P_DEFAULT), "find a group"), H5Gclose);
-  const auto names = take<std::uint8_t>(group.get(), "names", size);
-  const auto lengths = take<std::int64_t>(group.get(), "lengths", size / sizeof(std::int64_t));
-  const List values = take<typename List::value_type>(group.get(), "values",
-                                                      size / sizeof(typename List::value_type));
+  const auto names = FoundSet<std::uint8_t>(group.get(), "names", size).all();
+  const auto lengths =
+      FoundSet<std::int64_t>(group.get(), "lengths", size / sizeof(std::int64_t)).all();
+  const FoundSet<Number> values(group.get(), "values", size / sizeof(Number));
   std::size_t at = 0;
   auto letter = names.begin();
   for (const std::int64_t length : lengths) {
@@ -126,8 +183,7 @@ void take_group(hid_t file, const char* name, std::size_t size, Map& map) {
                           static_cast<std::uint64_t>(length) <= values.size() - at;
     if (!is_sound) throw IoError("names and lengths do not fit together");
     ++letter;
-    const auto first = values.begin() + static_cast<std::ptrdiff_t>(at);
-    map[path] = List(first, first + static_cast<std::ptrdiff_t>(length));
+    map[path] = values.take(at, static_cast<std::size_t>(length));
     at += static_cast<std::size_t>(length);
   }
   if (at != values.size() || letter != names.end()) throw IoError("values are left over");
@@ -157,6 +213,14 @@ std::vector<std::string> unpacked(const std::vector<std::uint8_t>& bytes) {
     }
   }
   return out;
+}
+
+/// HDF5 copies what it gets, and asks for memory that it could write to.
+Hdf5Handle opened(std::string_view content) {
+  const Hdf5Handle access = settings_in_memory();
+  sound(H5Pset_file_image(access.get(), const_cast<char*>(content.data()), content.size()),
+        "read a file in memory");
+  return {sound(H5Fopen("state", H5F_ACC_RDONLY, access.get()), "open the state"), H5Fclose};
 }
 
 /// What helps if a state is damaged. A checkpoint was written by its run, which ended.
@@ -198,15 +262,19 @@ std::string state_bytes(const base::SavedValues& state) {
   Hdf5Handle file(sound(H5Fcreate("state", H5F_ACC_TRUNC, H5P_DEFAULT, settings_in_memory().get()),
                         "keep a state in memory"),
                   H5Fclose);
-  put_group(file.get(), "numbers", state.numbers);
+  put_group(file.get(), "numbers", state.numbers, state.singles);
   put_group(file.get(), "counts", state.counts);
   put_group(file.get(), "texts", packed(state));
   sound(H5Fflush(file.get(), H5F_SCOPE_GLOBAL), "complete a state");
   const ssize_t size = H5Fget_file_image(file.get(), nullptr, 0);
   sound(size < 0 ? -1 : 0, "complete a state");
-  std::string out(static_cast<std::size_t>(size), '\0');
+  std::string out;
+  out.reserve(static_cast<std::size_t>(size) + kStateTrailer);
+  out.resize(static_cast<std::size_t>(size));
   sound(H5Fget_file_image(file.get(), out.data(), out.size()) < 0 ? -1 : 0, "complete a state");
-  return sealed(out);
+  file.reset();
+  out += trailer(out);
+  return out;
 }
 
 std::string sealed(std::string_view content) { return std::string(content) + trailer(content); }
@@ -216,15 +284,11 @@ base::SavedValues parse_state(std::string_view bytes, const std::string& name) {
   const Hdf5Quiet quiet;
   base::SavedValues out;
   try {
-    const Hdf5Handle access = settings_in_memory();
-    std::string image(content);  // HDF5 wants memory that it could write to
-    sound(H5Pset_file_image(access.get(), image.data(), image.size()), "read a file in memory");
-    const Hdf5Handle file(sound(H5Fopen("state", H5F_ACC_RDONLY, access.get()), "open the state"),
-                          H5Fclose);
-    take_group(file.get(), "numbers", image.size(), out.numbers);
-    take_group(file.get(), "counts", image.size(), out.counts);
+    const Hdf5Handle file = opened(content);
+    take_group(file.get(), "numbers", content.size(), out.numbers);
+    take_group(file.get(), "counts", content.size(), out.counts);
     std::map<std::string, std::vector<std::uint8_t>> texts;
-    take_group(file.get(), "texts", image.size(), texts);
+    take_group(file.get(), "texts", content.size(), texts);
     for (const auto& [path, packed_texts] : texts) out.texts[path] = unpacked(packed_texts);
   } catch (const IoError& error) {
     throw IoError(

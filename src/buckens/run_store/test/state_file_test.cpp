@@ -2,11 +2,15 @@
 #include "buckens/run_store/state_file.h"
 
 #include <cmath>
+#include <fstream>
+#include <string>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/sanitizers.h"
 
 namespace buckens::run_store {
 namespace {
@@ -32,6 +36,65 @@ TEST(StateFile, GivesTheSameBitsAgain) {
   EXPECT_TRUE(std::signbit(parse_state(bytes, "s").numbers["state/bodies/0/d"][1]));
   EXPECT_EQ(state_bytes(state), bytes);  // no time of day in it
 }
+
+TEST(StateFile, HasNumbersOfSinglePrecisionAmongTheOthers) {
+  base::SavedValues state = some_state();
+  state.singles["pairs/0/load"] = {1.0F / 3.0F, -0.0F, 1e-38F};
+  state.singles["pairs/1/load"] = {};
+  const base::SavedValues found = parse_state(state_bytes(state), "s");
+  base::SavedValues expected = some_state();
+  expected.numbers["pairs/0/load"] = {1.0F / 3.0F, -0.0F, 1e-38F};
+  expected.numbers["pairs/1/load"] = {};
+  EXPECT_EQ(found, expected);
+  // What holds them gets the same numbers from the file and from the state itself.
+  for (const base::SavedValues* from : {&found, &std::as_const(state)}) {
+    Eigen::VectorXf load;
+    base::SaveVisit::restoring(*from).inside("pairs").inside(0).vector("load", load, 3);
+    EXPECT_EQ(load, Eigen::Vector3f(1.0F / 3.0F, -0.0F, 1e-38F));
+    EXPECT_THROW(
+        base::SaveVisit::restoring(*from).inside("pairs").inside(0).vector("load", load, 4),
+        InputError);
+  }
+}
+
+#if !BUCKENS_IS_SANITIZED && defined(__linux__)
+
+/// An entry of the status of this process [bytes].
+double memory(const std::string& key) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with(key + ":")) return 1024.0 * std::stod(line.substr(key.size() + 1));
+  }
+  return 0;
+}
+
+/// Largest memory while a function runs, beyond what there was before [bytes].
+template <class Function>
+double peak_of(Function&& function) {
+  std::ofstream("/proc/self/clear_refs") << 5;  // the peak begins anew
+  const double before = memory("VmRSS");
+  function();
+  return memory("VmHWM") - before;
+}
+
+TEST(StateFile, NeedsLittleMoreThanTheFileTwice) {
+  constexpr std::size_t kLists = 20, kNumbers = 200000;
+  constexpr double kSize = 8.0 * kLists * kNumbers;
+  base::SavedValues state;
+  for (std::size_t k = 0; k < kLists; ++k) {
+    state.numbers["pairs/" + std::to_string(k)].assign(kNumbers, 1.0 / static_cast<double>(k + 1));
+  }
+  std::string bytes;
+  // HDF5 has the file in memory, and copies it out.
+  EXPECT_LT(peak_of([&] { bytes = state_bytes(state); }), 2.3 * kSize);
+  ASSERT_GT(static_cast<double>(bytes.size()), kSize);
+  base::SavedValues found;
+  // HDF5 copies the file, and for a moment twice; later there are the lists instead.
+  EXPECT_LT(peak_of([&] { found = parse_state(bytes, "s"); }), 3.3 * kSize);
+  EXPECT_EQ(found, state);
+}
+
+#endif
 
 TEST(StateFile, EveryCutAndEveryFlippedByteIsRefused) {
   const std::string bytes = state_bytes(some_state());
