@@ -116,6 +116,12 @@ int plugin_divide_rows(int rows, int columns, const BuckensGridColumns* all, cha
   });
 }
 
+int plugin_make_rows(int rows, int columns, const BuckensGridDescription* of, char* error,
+                     int error_size) {
+  return number_of(error, error_size,
+                   [&](Ranks& all_of_them) { return all_of_them.make_rows(rows, columns, *of); });
+}
+
 int plugin_make_columns(int size, const BuckensGridDescription* of, BuckensGridFacts* facts,
                         char* error, int error_size) {
   return number_of(error, error_size,
@@ -191,12 +197,13 @@ void plugin_take_pair(int number, int pair, float* load, float* answer) {
 }
 
 const BuckensGridPlugin plugin = {
-    kBuckensGridVersion,  plugin_name,        plugin_make,          plugin_solve,   plugin_bytes,
-    plugin_release,       plugin_join,        plugin_serve,         plugin_leave,   plugin_traffic,
-    plugin_divide,        plugin_divide_rows, plugin_make_columns,  plugin_add_up,  plugin_multiply,
-    plugin_inner_product, plugin_diagonal,    plugin_near_diagonal, plugin_marks,   plugin_edges,
-    plugin_gather,        plugin_forget,      plugin_make_pairs,    plugin_project, plugin_combine,
-    plugin_put_pair,      plugin_take_pair};
+    kBuckensGridVersion,  plugin_name,         plugin_make,          plugin_solve,
+    plugin_bytes,         plugin_release,      plugin_join,          plugin_serve,
+    plugin_leave,         plugin_traffic,      plugin_divide,        plugin_divide_rows,
+    plugin_make_rows,     plugin_make_columns, plugin_add_up,        plugin_multiply,
+    plugin_inner_product, plugin_diagonal,     plugin_near_diagonal, plugin_marks,
+    plugin_edges,         plugin_gather,       plugin_forget,        plugin_make_pairs,
+    plugin_project,       plugin_combine,      plugin_put_pair,      plugin_take_pair};
 
 }  // namespace
 

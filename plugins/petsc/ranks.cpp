@@ -101,6 +101,7 @@ void Ranks::serve(const BuckensGridMaker& maker) {
         break;
       case Task::divide:
       case Task::divide_rows:
+      case Task::make_rows:
       case Task::make_columns:
       case Task::add_up:
       case Task::inner_product:
@@ -139,6 +140,7 @@ void Ranks::serve_matrices(const Order& order) {
     case Task::divide_rows:
       (void)divide_together(order, nullptr, facts);
       break;
+    case Task::make_rows:
     case Task::make_columns:
       (void)make_columns_together(order, nullptr, facts);
       break;

@@ -17,6 +17,17 @@ int Ranks::make_columns(int size, const BuckensGridDescription& of, BuckensGridF
   return make_columns_together(order, &of, facts) ? order.number : -1;
 }
 
+int Ranks::make_rows(int rows, int columns, const BuckensGridDescription& of) {
+  Order order;
+  order.task = Task::make_rows;
+  order.number = next_++;
+  order.size = rows;
+  order.columns = columns;
+  give(order);
+  BuckensGridFacts facts{};
+  return make_columns_together(order, &of, facts) ? order.number : -1;
+}
+
 /// A process makes its columns while the first describes those of the next.
 bool Ranks::make_columns_together(const Order& order, const BuckensGridDescription* of,
                                   BuckensGridFacts& facts) {
@@ -34,7 +45,9 @@ bool Ranks::make_columns_together(const Order& order, const BuckensGridDescripti
     }
   }
   if (has_failed_somewhere(!is_made)) return false;
-  return keep(order, std::move(matrix), facts);
+  const bool is_kept = keep(order, std::move(matrix), facts);
+  give_memory_back();  // of elements and of what they add
+  return is_kept;
 }
 
 bool Ranks::send_descriptions(const Divided& matrix, const BuckensGridDescription& of) {

@@ -91,7 +91,7 @@ int Ranks::divide_rows(int rows, int columns, const BuckensGridColumns& all) {
 std::unique_ptr<Ranks::Divided> Ranks::empty_division(const Order& order) const {
   auto matrix = std::make_unique<Divided>();
   matrix->size = order.size;
-  matrix->is_symmetric = order.task != Task::divide_rows;
+  matrix->is_symmetric = order.task != Task::divide_rows && order.task != Task::make_rows;
   matrix->first = runs_of_others(order.size, count_);
   for (int k = 0; k < count_; ++k) {
     matrix->counts.push_back(matrix->first[k + 1] - matrix->first[k]);

@@ -22,6 +22,7 @@ enum class Task : int {
   release,
   divide,
   divide_rows,
+  make_rows,
   make_columns,
   add_up,
   inner_product,

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
-#include <new>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -48,23 +47,6 @@ int ask_for_matrix(Eigen::Index size, const Wish& wish, Vector& diagonal, Bucken
   return number;
 }
 
-/// Gives the plug-in what its processes make columns of.
-struct Descriptions {
-  const DividedMatrix::Describe* of;
-  std::vector<std::byte> last;
-
-  static int give(void* source, int first, int end, const void** bytes, long* count) try {
-    auto& own = *static_cast<Descriptions*>(source);
-    own.last = {};
-    own.last = (*own.of)(first, end);
-    *bytes = own.last.data();
-    *count = static_cast<long>(own.last.size());
-    return 0;
-  } catch (const std::bad_alloc&) {
-    return 1;  // the plug-in says so to all processes
-  }
-};
-
 }  // namespace
 
 DividedMatrix::DividedMatrix(const SparseMatrix& A) {
@@ -76,9 +58,9 @@ DividedMatrix::DividedMatrix(const SparseMatrix& A) {
                            });
 }
 
-DividedMatrix::DividedMatrix(Eigen::Index size, const Describe& describe) {
-  Descriptions own{&describe, {}};
-  const BuckensGridDescription of{Descriptions::give, &own};
+DividedMatrix::DividedMatrix(Eigen::Index size, const DescribeColumns& describe) {
+  ColumnDescriptions own(describe);
+  const BuckensGridDescription of = own.for_plugin();
   number_ = ask_for_matrix(size, {"made", "check the mesh, or use more memory"}, diagonal_, facts_,
                            [&](const auto& plugin, auto* facts, char* error, int error_size) {
                              return plugin.make_columns(static_cast<int>(size), &of, facts, error,

@@ -2,12 +2,10 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
-#include <vector>
 
+#include "buckens/linalg/column_descriptions.h"
 #include "buckens/linalg/grid_plugin.h"
 #include "buckens/linalg/matrix_types.h"
 
@@ -16,14 +14,11 @@ namespace buckens::linalg {
 /// A symmetric matrix whose rows other processes have (ranks.h), each a run of them.
 class DividedMatrix {
  public:
-  /// What columns `first` to `end` − 1 are made of, for MakeColumns.
-  using Describe = std::function<std::vector<std::byte>(int first, int end)>;
-
   /// @throws NumericalError if memory is too small
   explicit DividedMatrix(const SparseMatrix& A);
   /// One that the other processes make, each its columns (Ranks::serve).
   /// @throws NumericalError if one of them cannot, with its reason
-  DividedMatrix(Eigen::Index size, const Describe& describe);
+  DividedMatrix(Eigen::Index size, const DescribeColumns& describe);
   /// Σ w_k A_k @pre of one size, at least one and at most kBuckensMostProducts
   DividedMatrix(std::span<const DividedMatrix* const> terms, std::span<const double> weights);
   ~DividedMatrix();

@@ -80,8 +80,8 @@ struct BuckensGridDescription {
 
 /// What the program does in the processes other than the first.
 struct BuckensGridMaker {
-  /// Columns `first` to `end` - 1 of a symmetric matrix from the diagonal on, of what describe()
-  /// says; they live until the next call. Null for them gives the memory back.
+  /// Columns `first` to `end` - 1 of a matrix, of a symmetric one from the diagonal on, of what
+  /// describe() says; they live until the next call. Null for them gives the memory back.
   int (*make)(const void* bytes, long count, int first, int end, BuckensGridColumns* columns,
               char* error, int error_size);
   /// Adds a number for these columns, from the diagonal on, to `content`. The order of sums does
@@ -118,6 +118,9 @@ struct BuckensGridPlugin {
   /// cannot be gathered, nor be a term of a sum.
   int (*divide_rows)(int rows, int columns, const BuckensGridColumns* all, char* error,
                      int error_size);
+  /// The same of a matrix whose rows the other processes make: columns for the maker.
+  int (*make_rows)(int rows, int columns, const BuckensGridDescription* of, char* error,
+                   int error_size);
   /// As divide(), of a symmetric matrix whose columns the other processes make.
   int (*make_columns)(int size, const BuckensGridDescription* of, BuckensGridFacts* facts,
                       char* error, int error_size);

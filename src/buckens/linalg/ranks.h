@@ -25,8 +25,8 @@ struct Traffic {
   double bytes = 0;
 };
 
-/// Columns `first` to `end` − 1 of a symmetric matrix from the diagonal on, n×(end − first), made
-/// of a description that the first process has sent (DividedMatrix::Describe).
+/// Columns `first` to `end` − 1, of a symmetric matrix from the diagonal on, n×(end − first), made
+/// of a description that the first process has sent (DescribeColumns).
 using MakeColumns = SparseMatrix (*)(std::span<const std::byte> description, int first, int end);
 
 /// Processes that mpirun started, among which large factors and iterative solvers are distributed.

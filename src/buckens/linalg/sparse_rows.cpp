@@ -17,15 +17,18 @@ class SparseRows::Elsewhere {
  public:
   explicit Elsewhere(const RowMajor& A) {
     const BuckensGridColumns rows{A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr()};
-    std::array<char, 400> error{};
-    const std::scoped_lock lock(turn_of_grid_solver());
-    number_ = grid_solver().divide_rows(static_cast<int>(A.rows()), static_cast<int>(A.cols()),
-                                        &rows, error.data(), static_cast<int>(error.size()));
-    if (number_ >= 0) return;
-    throw NumericalError(
-        fmt::format("a matrix of {} rows and {} columns could not be divided among {} processes: "
-                    "{}; use more memory, or fewer processes on a machine",
-                    A.rows(), A.cols(), Ranks::count(), error.data()));
+    ask({A.rows(), A.cols(), "divided among"}, [&](char* error, int error_size) {
+      return grid_solver().divide_rows(static_cast<int>(A.rows()), static_cast<int>(A.cols()),
+                                       &rows, error, error_size);
+    });
+  }
+  Elsewhere(Eigen::Index rows, Eigen::Index columns, const DescribeColumns& describe) {
+    ColumnDescriptions own(describe);
+    const BuckensGridDescription of = own.for_plugin();
+    ask({rows, columns, "made by"}, [&](char* error, int error_size) {
+      return grid_solver().make_rows(static_cast<int>(rows), static_cast<int>(columns), &of, error,
+                                     error_size);
+    });
   }
   ~Elsewhere() {
     const std::scoped_lock lock(turn_of_grid_solver());
@@ -40,6 +43,24 @@ class SparseRows::Elsewhere {
   }
 
  private:
+  struct Wish {
+    Eigen::Index rows, columns;
+    const char* verb;
+  };
+
+  /// @param call (error, its size) → number
+  template <class Call>
+  void ask(const Wish& wish, Call&& call) {
+    std::array<char, 400> error{};
+    const std::scoped_lock lock(turn_of_grid_solver());
+    number_ = call(error.data(), static_cast<int>(error.size()));
+    if (number_ >= 0) return;
+    throw NumericalError(
+        fmt::format("a matrix of {} rows and {} columns could not be {} {} processes: {}; use more "
+                    "memory, or fewer processes on a machine",
+                    wish.rows, wish.columns, wish.verb, Ranks::count(), error.data()));
+  }
+
   int number_ = -1;
 };
 
@@ -51,6 +72,9 @@ SparseRows::SparseRows(RowMajor&& A) : rows_(A.rows()) {
     here_.swap(A);
   }
 }
+
+SparseRows::SparseRows(Eigen::Index rows, Eigen::Index columns, const DescribeColumns& describe)
+    : rows_(rows), elsewhere_(std::make_shared<const Elsewhere>(rows, columns, describe)) {}
 
 Vector SparseRows::operator*(const Vector& x) const {
   if (!elsewhere_) return here_ * x;

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "buckens/linalg/column_descriptions.h"
 #include "buckens/linalg/matrix_types.h"
 
 namespace buckens::linalg {
@@ -20,6 +21,10 @@ class SparseRows {
   /// @param A is empty afterwards
   /// @throws NumericalError if memory is too small
   explicit SparseRows(RowMajor&& A);
+  /// One whose rows other processes make, as columns of its transpose (Ranks::serve).
+  /// @pre is_shared_work(columns)
+  /// @throws NumericalError if one of them cannot, with its reason
+  SparseRows(Eigen::Index rows, Eigen::Index columns, const DescribeColumns& describe);
 
   Eigen::Index rows() const { return rows_; }
   /// A x

@@ -8,6 +8,7 @@
 #include "buckens/fem/assembly/inertia_assembly.h"
 #include "buckens/fem/assembly/mesh_part.h"
 #include "buckens/fem/assembly/stiffness_assembly.h"
+#include "buckens/fem/assembly/stress_rows.h"
 #include "buckens/linalg/counted_entries.h"
 #include "buckens/linalg/divided_matrix.h"
 
@@ -119,6 +120,7 @@ linalg::SymmetricMatrix matrix_made_elsewhere(
 SparseMatrix made_columns(std::span<const std::byte> description, int first, int end) {
   BytesFrom take(description);
   const auto which = take.next<MeshMatrix>();
+  if (which == MeshMatrix::stress) return made_stress_rows(take, first, end);
   const MeshPart part = taken_part(take);
   SparseMatrix A = matrix_of(which, part);
   const bool follows = take.next<bool>();

@@ -11,7 +11,8 @@
 
 namespace buckens::fem {
 
-enum class MeshMatrix : int { mass, stiffness, damping };
+/// What other processes make: symmetric matrices of a mesh, or rows of stresses (stress_rows.h).
+enum class MeshMatrix : int { mass, stiffness, damping, stress };
 
 /// Variables of a mesh that follow others, d = T x.
 using Following = Eigen::SparseMatrix<double, Eigen::RowMajor>;

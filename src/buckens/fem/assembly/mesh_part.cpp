@@ -219,13 +219,22 @@ bool is_any_asked(const DofMap& dofs, std::span<const int> nodes,
 std::vector<int> put_part(const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
                           const MeshView& mesh, const std::vector<bool>& is_asked, BytesTo& put) {
   std::vector<std::vector<int>> elements;
-  std::vector<int> number(mesh.nodes.size(), -1);
   for (const auto& block : blocks) {
     auto& own = elements.emplace_back();
     for (int e = 0; e < block->num_elements(); ++e) {
-      if (!is_any_asked(mesh.dofs, block->nodes(e), is_asked)) continue;
-      own.push_back(e);
-      for (const int node : block->nodes(e)) number[static_cast<std::size_t>(node)] = 0;
+      if (is_any_asked(mesh.dofs, block->nodes(e), is_asked)) own.push_back(e);
+    }
+  }
+  return put_part(blocks, mesh, elements, put);
+}
+
+std::vector<int> put_part(const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
+                          const MeshView& mesh, const std::vector<std::vector<int>>& elements,
+                          BytesTo& put) {
+  std::vector<int> number(mesh.nodes.size(), -1);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    for (const int e : elements[b]) {
+      for (const int node : blocks[b]->nodes(e)) number[static_cast<std::size_t>(node)] = 0;
     }
   }
   std::vector<int> variables;

@@ -25,6 +25,10 @@ struct MeshPart {
 /// @pre shells have directors
 std::vector<int> put_part(const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
                           const MeshView& mesh, const std::vector<bool>& is_asked, BytesTo& put);
+/// Puts chosen elements of each block, ascending.
+std::vector<int> put_part(const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
+                          const MeshView& mesh, const std::vector<std::vector<int>>& elements,
+                          BytesTo& put);
 MeshPart taken_part(BytesFrom& take);
 
 }  // namespace buckens::fem

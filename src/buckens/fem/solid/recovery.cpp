@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
-#include "buckens/fem/assembly/element_pieces.h"
+#include "buckens/fem/assembly/stress_rows.h"
 #include "buckens/fem/element/block.h"
 
 namespace buckens::fem {
@@ -32,32 +31,6 @@ void visit_solids(const FeModel& fe, Visitor&& visit) {
   for (const auto& block : fe.blocks) {
     if (!block->is_solid()) continue;
     for (int e = 0; e < block->num_elements(); ++e) visit(*block, e, number++);
-  }
-}
-
-/// Calls visit(entry) for the entries of the stresses, row by row, columns ascending: six rows for
-/// a solid, then twelve for a shell.
-template <class Visitor>
-void visit_stress_rows(const FeModel& fe, int num_solids, Visitor&& visit) {
-  int first_row = 0;
-  for (const bool of_shells : {false, true}) {
-    if (of_shells) first_row = 6 * num_solids;
-    for (const auto& block : fe.blocks) {
-      if (of_shells ? !block->is_shell() : !block->is_solid()) continue;
-      const int rows = of_shells ? 12 : 6;
-      visit_pieces(*block, fe.nodes, [&](const ElementBlock& piece, int first) {
-        std::vector<linalg::Triplet> listed;
-        piece.add_stress_rows({fe.nodes, fe.dofs}, 0, listed);
-        std::sort(listed.begin(), listed.end(), [](const auto& a, const auto& b) {
-          return std::pair(a.row(), a.col()) < std::pair(b.row(), b.col());
-        });
-        for (const linalg::Triplet& entry : listed) {
-          visit(
-              linalg::Triplet(first_row + rows * first + entry.row(), entry.col(), entry.value()));
-        }
-      });
-      first_row += rows * block->num_elements();
-    }
   }
 }
 
@@ -139,24 +112,12 @@ std::vector<std::vector<int>> solids_at_nodes(const FeModel& fe) {
   return out;
 }
 
-SolidRecovery::SolidRecovery(const FeModel& fe) {
+SolidRecovery::SolidRecovery(const FeModel& fe)
+    : rows_(stress_rows(fe.blocks, {fe.nodes, fe.dofs})) {
   for (const auto& block : fe.blocks) {
     if (block->is_solid()) num_solids_ += block->num_elements();
     if (block->is_shell()) num_shells_ += block->num_elements();
   }
-  linalg::SparseRows::RowMajor rows(6 * num_solids_ + 12 * num_shells_, fe.dofs.num_dofs);
-  int* starts = rows.outerIndexPtr();
-  std::fill_n(starts, rows.rows() + 1, 0);
-  visit_stress_rows(fe, num_solids_,
-                    [&](const linalg::Triplet& entry) { ++starts[entry.row() + 1]; });
-  std::partial_sum(starts, starts + rows.rows() + 1, starts);
-  rows.resizeNonZeros(starts[rows.rows()]);
-  int place = 0;
-  visit_stress_rows(fe, num_solids_, [&](const linalg::Triplet& entry) {
-    rows.innerIndexPtr()[place] = entry.col();
-    rows.valuePtr()[place++] = entry.value();
-  });
-  rows_ = linalg::SparseRows(std::move(rows));
 }
 
 linalg::Matrix SolidRecovery::stresses(const linalg::Vector& d) const {

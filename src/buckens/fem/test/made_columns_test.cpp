@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "buckens/fem/assembly/stress_rows.h"
 #include "buckens/fem/assembly/structure_parts.h"
 #include "buckens/fem/constraint/elimination.h"
 #include "buckens/fem/test/shell_fixture.h"
@@ -51,6 +52,28 @@ void expect_same_matrices(const Structure& s, std::optional<spatial::Plane> plan
   }
 }
 
+/// What other processes make of stresses has the bits of what one has.
+void expect_same_stresses(const Structure& s) {
+  const FeModel fe = assemble(s);
+  const MeshView mesh{fe.nodes, fe.dofs};
+  const linalg::SparseRows rows = stress_rows(fe.blocks, mesh);
+  const auto n = static_cast<int>(rows.rows());
+  linalg::Vector d(fe.dofs.num_dofs);
+  for (Eigen::Index k = 0; k < d.size(); ++k) d[k] = std::sin(static_cast<double>(7 * k));
+  const linalg::Vector expected = rows * d;
+  // Runs that begin and end within an element; one of them is empty.
+  const std::array<int, 5> runs = {0, n / 3 + 1, n / 3 + 1, n - 4, n};
+  for (std::size_t k = 0; k + 1 < runs.size(); ++k) {
+    const std::vector<std::byte> description =
+        description_of_stress_rows(fe.blocks, mesh, runs[k], runs[k + 1]);
+    const SparseMatrix made = made_columns(description, runs[k], runs[k + 1]);
+    ASSERT_EQ(made.rows(), d.size());
+    ASSERT_EQ(made.cols(), runs[k + 1] - runs[k]);
+    const linalg::SparseRows::RowMajor own = made.transpose();
+    ASSERT_EQ(linalg::Vector(own * d), expected.segment(runs[k], made.cols()));
+  }
+}
+
 Material crossed() {
   Material material = steel();
   material.damping_stiffness = 1e-4;
@@ -70,6 +93,7 @@ class MadeColumnsTest : public ::testing::TestWithParam<SolidForm> {};
 
 TEST_P(MadeColumnsTest, HaveTheBitsOfAnAssemblyInOneProcess) {
   expect_same_matrices(distorted_block(GetParam(), crossed()));
+  expect_same_stresses(distorted_block(GetParam(), crossed()));
 }
 
 INSTANTIATE_TEST_SUITE_P(AllForms, MadeColumnsTest, ::testing::ValuesIn(all_forms()),
@@ -95,6 +119,7 @@ class MadeColumnsOfShellsTest : public ::testing::TestWithParam<ShellKind> {};
 
 TEST_P(MadeColumnsOfShellsTest, HaveTheBitsOfAnAssemblyInOneProcess) {
   expect_same_matrices(shells_with_waves(GetParam()).structure);
+  expect_same_stresses(shells_with_waves(GetParam()).structure);
 }
 
 INSTANTIATE_TEST_SUITE_P(AllKinds, MadeColumnsOfShellsTest,
@@ -155,6 +180,7 @@ TEST(MadeColumnsOfBodyTest, OfBarsMassesAndSpringsAmongSolidsAndShells) {
   s.solids.add(SolidForm::usual(SolidKind::tet4), std::array<int, 4>{foot, 1, 0, top}, material);
   s.masses.add(top, 0.3);
   expect_same_matrices(s);
+  expect_same_stresses(s);
 }
 
 /// T of a mesh with nodes that follow one more node as a rigid body.
@@ -239,6 +265,7 @@ TEST(MadeColumnsOfBodyTest, OfMoreElementsThanOnePiece) {
   add_box(s, {{0, 0, 0}, {0.4, 0.3, 0.2}, {12, 12, 12}}, crossed(),
           SolidForm::usual(SolidKind::hex8));
   expect_same_matrices(s);
+  expect_same_stresses(s);
 }
 
 TEST(MadeColumnsOfBodyTest, NeedAFewElementsMoreThanTheirShare) {

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/fem/assembly/stress_rows.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "buckens/fem/assembly/element_pieces.h"
+#include "buckens/fem/assembly/made_columns.h"
+#include "buckens/fem/assembly/mesh_part.h"
+#include "buckens/linalg/counted_entries.h"
+#include "buckens/linalg/ranks.h"
+
+namespace buckens::fem {
+
+using linalg::SparseMatrix;
+
+namespace {
+
+using Blocks = std::vector<std::shared_ptr<const ElementBlock>>;
+
+constexpr int kRowsOfSolid = 6, kRowsOfShell = 12;
+
+/// Calls visit(block, its first row, rows of each of its elements): solids, then shells. Others
+/// have no stresses of this kind.
+/// @return the number of rows
+template <class Visitor>
+int visit_stressed(const Blocks& blocks, Visitor&& visit) {
+  int first_row = 0;
+  for (const bool of_shells : {false, true}) {
+    const int rows = of_shells ? kRowsOfShell : kRowsOfSolid;
+    for (const auto& block : blocks) {
+      if (of_shells ? !block->is_shell() : !block->is_solid()) continue;
+      visit(*block, first_row, rows);
+      first_row += rows * block->num_elements();
+    }
+  }
+  return first_row;
+}
+
+int num_rows(const Blocks& blocks) {
+  return visit_stressed(blocks, [](const ElementBlock&, int, int) {});
+}
+
+/// Calls visit(row, column, value) for the entries, row by row, columns ascending.
+template <class Visitor>
+void visit_entries(const Blocks& blocks, const MeshView& mesh, Visitor&& visit) {
+  visit_stressed(blocks, [&](const ElementBlock& block, int first_row, int rows) {
+    visit_pieces(block, mesh.nodes, [&](const ElementBlock& piece, int first) {
+      std::vector<linalg::Triplet> listed;
+      piece.add_stress_rows(mesh, 0, listed);
+      std::sort(listed.begin(), listed.end(), [](const auto& a, const auto& b) {
+        return std::pair(a.row(), a.col()) < std::pair(b.row(), b.col());
+      });
+      for (const linalg::Triplet& entry : listed) {
+        visit(first_row + rows * first + entry.row(), entry.col(), entry.value());
+      }
+    });
+  });
+}
+
+linalg::SparseRows::RowMajor rows_of_this_process(const Blocks& blocks, const MeshView& mesh) {
+  linalg::SparseRows::RowMajor out(num_rows(blocks), mesh.dofs.num_dofs);
+  int* starts = out.outerIndexPtr();
+  std::fill_n(starts, out.rows() + 1, 0);
+  visit_entries(blocks, mesh, [starts](int row, int, double) { ++starts[row + 1]; });
+  std::partial_sum(starts, starts + out.rows() + 1, starts);
+  out.resizeNonZeros(starts[out.rows()]);
+  int place = 0;
+  visit_entries(blocks, mesh, [&](int, int column, double value) {
+    out.innerIndexPtr()[place] = column;
+    out.valuePtr()[place++] = value;
+  });
+  return out;
+}
+
+}  // namespace
+
+linalg::SparseRows stress_rows(const Blocks& blocks, const MeshView& mesh) {
+  if (!linalg::is_shared_work(mesh.dofs.num_dofs)) {
+    return linalg::SparseRows(rows_of_this_process(blocks, mesh));
+  }
+  return {num_rows(blocks), mesh.dofs.num_dofs,
+          [&](int first, int end) { return description_of_stress_rows(blocks, mesh, first, end); }};
+}
+
+std::vector<std::byte> description_of_stress_rows(const Blocks& blocks, const MeshView& mesh,
+                                                  int first, int end) {
+  BytesTo put;
+  put(MeshMatrix::stress);
+  // The elements to which these rows belong: they follow each other, as rows do.
+  std::vector<std::vector<int>> elements(blocks.size());
+  int first_of_part = -1;
+  visit_stressed(blocks, [&](const ElementBlock& block, int first_row, int rows) {
+    const auto found = std::find_if(blocks.begin(), blocks.end(),
+                                    [&block](const auto& b) { return b.get() == &block; });
+    auto& own = elements[static_cast<std::size_t>(found - blocks.begin())];
+    for (int e = 0; e < block.num_elements(); ++e) {
+      const int row = first_row + rows * e;
+      if (row + rows <= first || row >= end) continue;
+      if (first_of_part < 0) first_of_part = row;
+      own.push_back(e);
+    }
+  });
+  put(first_of_part);
+  (void)put_part(blocks, mesh, elements, put);
+  return put.take();
+}
+
+SparseMatrix made_stress_rows(BytesFrom description, int first, int end) {
+  const int first_of_part = description.next<int>();
+  const MeshPart part = taken_part(description);
+  const auto visit = [&](auto&& entry) {
+    visit_entries(part.blocks, {part.nodes, part.dofs}, [&](int row, int column, double value) {
+      const int of_whole = first_of_part + row;
+      if (of_whole < first || of_whole >= end) return;
+      entry(part.variables[static_cast<std::size_t>(column)], of_whole - first, value);
+    });
+  };
+  return linalg::from_counted_entries(part.size, end - first, visit);
+}
+
+}  // namespace buckens::fem
