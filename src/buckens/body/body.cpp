@@ -5,13 +5,13 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/body/rigid_modes.h"
 #include "buckens/linalg/conjugate_gradients.h"
 #include "buckens/linalg/matrix_sum.h"
+#include "buckens/spatial/principal_axes.h"
 
 namespace buckens::body {
 
@@ -86,8 +86,8 @@ std::string missing_inertia_note(const Body& body, const Vector3d& axis) {
 void select_frame_coordinates(Body& body, const std::optional<Vector3d>& plane_normal) {
   body.rotation_basis.resize(3, 0);
   body.missing_rotations.resize(3, 0);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(body.J0);
-  const double largest = eigen.eigenvalues()[2];
+  const spatial::PrincipalAxes principal = spatial::principal_axes(body.J0);
+  const double largest = principal.values[2];
   const auto add_rotation = [&](const Vector3d& axis, double moment) {
     const bool has_inertia = largest > 0.0 && moment > kNoInertia * largest;
     auto& basis = has_inertia ? body.rotation_basis : body.missing_rotations;
@@ -103,11 +103,11 @@ void select_frame_coordinates(Body& body, const std::optional<Vector3d>& plane_n
   }
   body.translation_basis = Eigen::Matrix3d::Identity();
   // Eigenvectors only where something is missing: otherwise the body axes stay readable.
-  if (eigen.eigenvalues()[0] > kNoInertia * largest && largest > 0.0) {
+  if (principal.values[0] > kNoInertia * largest && largest > 0.0) {
     body.rotation_basis = Eigen::Matrix3d::Identity();
     return;
   }
-  for (int k = 0; k < 3; ++k) add_rotation(eigen.eigenvectors().col(k), eigen.eigenvalues()[k]);
+  for (int k = 0; k < 3; ++k) add_rotation(principal.vectors.col(k), principal.values[k]);
 }
 
 }  // namespace buckens::body

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include "buckens/spatial/principal_axes.h"
 
 namespace buckens::loads {
 
@@ -41,15 +41,14 @@ Matrix3d resistance(const FunctionForce::Law& law, double t, const MarkerMotion&
 void append_principal_rows(const Matrix3d& resistance, double SoftRow::*strength,
                            std::vector<SoftRow>& rows) {
   const Matrix3d symmetric = 0.5 * (resistance + resistance.transpose());
-  Eigen::SelfAdjointEigenSolver<Matrix3d> principal;
+  spatial::PrincipalAxes principal;
   const bool is_usable = symmetric.allFinite();
-  if (is_usable) principal.compute(symmetric);
+  if (is_usable) principal = spatial::principal_axes(symmetric);
   for (int k = 0; k < 3; ++k) {
     SoftRow row;
-    const Vector3d direction =
-        is_usable ? Vector3d(principal.eigenvectors().col(k)) : Vector3d::Unit(k);
+    const Vector3d direction = is_usable ? Vector3d(principal.vectors.col(k)) : Vector3d::Unit(k);
     row.J.segment<3>(3) = direction.transpose();
-    row.*strength = is_usable ? std::max(0.0, principal.eigenvalues()[k]) : 0.0;
+    row.*strength = is_usable ? std::max(0.0, principal.values[k]) : 0.0;
     rows.push_back(row);
   }
 }

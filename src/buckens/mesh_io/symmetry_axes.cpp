@@ -6,9 +6,10 @@
 #include <utility>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+
+#include "buckens/spatial/principal_axes.h"
 
 namespace buckens::mesh_io {
 
@@ -83,7 +84,7 @@ Matrix3d first_guess(const StiffnessMatrix& C) {
       }
     }
   }
-  Matrix3d axes = Eigen::SelfAdjointEigenSolver<Matrix3d>(sum).eigenvectors();
+  Matrix3d axes = spatial::principal_axes(sum).vectors;
   if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
   return axes;
 }

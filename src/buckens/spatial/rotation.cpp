@@ -1,9 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/spatial/rotation.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "buckens/spatial/principal_axes.h"
+
 namespace buckens::spatial {
+
+namespace {
+
+// Principal moments up to this share of the largest are rounding.
+constexpr double kNoInertia = 1e-14;
+
+// Cosines below this are of directions whose product is mostly rounding.
+constexpr double kNearlyOpposite = -1.0 + 1e-12;
+
+// What is left of a unit vector beside its opposite is rounding up to this.
+constexpr double kRoundingAside = 1e-15;
+
+/// Unit vector across two unit vectors that are nearly opposite: the last column of Q in the QR
+/// decomposition of both, by Householder's reflections.
+Eigen::Vector3d axis_across(const Eigen::Vector3d& first, const Eigen::Vector3d& second) {
+  // The first reflection takes `first` to the x axis.
+  const double image = first.x() < 0.0 ? 1.0 : -1.0;
+  const Eigen::Vector3d mirror(1.0, first.y() / (first.x() - image),
+                               first.z() / (first.x() - image));
+  const double twice = (image - first.x()) / image;
+  const auto reflected = [&](const Eigen::Vector3d& x) {
+    return Eigen::Vector3d(x - twice * mirror.dot(x) * mirror);
+  };
+  // The second one takes what is left of `second` to the y axis.
+  const Eigen::Vector3d rest = reflected(second);
+  const double length = std::hypot(rest.y(), rest.z());
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
+  if (length > kRoundingAside) axis = Eigen::Vector3d(0.0, -rest.z(), rest.y()) / length;
+  axis = reflected(axis);
+  // Of the two turns by less than a half, the one that goes there.
+  return axis.dot(first.cross(second)) < 0.0 ? Eigen::Vector3d(-axis) : axis;
+}
+
+}  // namespace
 
 Eigen::Matrix3d skew(const Eigen::Vector3d& x) {
   Eigen::Matrix3d s;
@@ -20,13 +57,32 @@ Eigen::Quaterniond exp_rotation(const Eigen::Vector3d& psi) {
   return q;
 }
 
-// Both make decompositions of small matrices, which take seconds to compile: once, here.
+// As Quaterniond::FromTwoVectors, whose singular values of a matrix take six seconds to compile.
 Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  return Eigen::Quaterniond::FromTwoVectors(from, to);
+  const Eigen::Vector3d a = from.normalized(), b = to.normalized();
+  const double cosine = b.dot(a);
+  Eigen::Quaterniond q;
+  if (cosine < kNearlyOpposite) {
+    const double square = 0.5 * (1.0 + std::max(cosine, -1.0));
+    q.w() = std::sqrt(square);
+    q.vec() = axis_across(a, b) * std::sqrt(1.0 - square);
+    return q;
+  }
+  const double twice = std::sqrt(2.0 * (1.0 + cosine));
+  q.vec() = a.cross(b) * (1.0 / twice);
+  q.w() = 0.5 * twice;
+  return q;
 }
 
 Eigen::Vector3d spin_of(const Eigen::Matrix3d& J, const Eigen::Vector3d& L) {
-  return J.completeOrthogonalDecomposition().solve(L);
+  const PrincipalAxes principal = principal_axes(J);
+  Eigen::Vector3d w = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    if (!(principal.values[k] > kNoInertia * principal.values[2])) continue;
+    const Eigen::Vector3d axis = principal.vectors.col(k);
+    w += axis.dot(L) / principal.values[k] * axis;
+  }
+  return w;
 }
 
 Eigen::Vector3d log_rotation(const Eigen::Quaterniond& q_in) {

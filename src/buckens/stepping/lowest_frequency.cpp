@@ -7,9 +7,8 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
-
 #include "buckens/linalg/symmetric_eigen.h"
+#include "buckens/spatial/principal_axes.h"
 
 namespace buckens::stepping {
 
@@ -125,10 +124,10 @@ Matrix projected(const linalg::SymmetricMatrix& A, const Eigen::Ref<const Matrix
 
 /// The best shape among polynomials of the place.
 Vector smooth_shape(const body::FlexiblePart& part) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(part.fe.shape.J0);
-  Eigen::Matrix3d axes = principal.eigenvectors();
+  const spatial::PrincipalAxes principal = spatial::principal_axes(part.fe.shape.J0);
+  Eigen::Matrix3d axes = principal.vectors;
   axes.col(2) = axes.col(0).cross(axes.col(1));  // curls ask for a right-handed system
-  const auto fields = smooth_fields(principal.eigenvalues());
+  const auto fields = smooth_fields(principal.values);
   Matrix basis(part.num_dofs(), std::ssize(fields));
   Eigen::Index count = 0;
   for (const SmoothField& field : fields) {

@@ -7,10 +7,10 @@
 #include <numbers>
 #include <numeric>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "buckens/fem/element/block.h"
+#include "buckens/spatial/principal_axes.h"
 
 namespace buckens::analysis {
 
@@ -84,11 +84,11 @@ Matrix3d fitted_gradient(const fem::FeModel& fe, std::span<const int> nodes, con
 /// Slope of a shell's middle surface out of its plane.
 double slope_of_shell(const fem::FeModel& fe, std::span<const int> nodes, const Vector& d) {
   const Moments m = moments_of(fe, nodes, d);
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> spread(m.xx);
-  const Eigen::Matrix<double, 3, 2> plane = spread.eigenvectors().rightCols<2>();
+  const spatial::PrincipalAxes spread = spatial::principal_axes(m.xx);
+  const Eigen::Matrix<double, 3, 2> plane = spread.vectors.rightCols<2>();
   const Eigen::Matrix<double, 3, 2> slopes =
-      m.ux * plane * spread.eigenvalues().tail<2>().cwiseInverse().asDiagonal();
-  return (spread.eigenvectors().col(0).transpose() * slopes).norm();
+      m.ux * plane * spread.values.tail<2>().cwiseInverse().asDiagonal();
+  return (spread.vectors.col(0).transpose() * slopes).norm();
 }
 
 double rotation_of(const fem::FeModel& fe, const fem::ElementBlock& block, int e, const Vector& d) {

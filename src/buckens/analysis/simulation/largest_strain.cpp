@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
-
 #include "buckens/fem/element/block.h"
 #include "buckens/fem/solid/recovery.h"
+#include "buckens/spatial/principal_axes.h"
 
 namespace buckens::analysis {
 
@@ -28,8 +27,7 @@ void include_principal(const TensorColumns& strains, double& largest) {
     T << s[0], 0.5 * s[3], 0.5 * s[5],  //
         0.5 * s[3], s[1], 0.5 * s[4],   //
         0.5 * s[5], 0.5 * s[4], s[2];
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(T, Eigen::EigenvaluesOnly);
-    largest = std::max(largest, principal.eigenvalues().cwiseAbs().maxCoeff());
+    largest = std::max(largest, spatial::principal_values(T).cwiseAbs().maxCoeff());
   }
 }
 

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-
 #include "buckens/analysis/initial/prepare.h"
 #include "buckens/analysis/simulation/held_readings.h"
 #include "buckens/analysis/simulation/output_plan.h"
@@ -18,6 +16,7 @@
 #include "buckens/results/field_recorder.h"
 #include "buckens/results/recorder.h"
 #include "buckens/results/stored_size.h"
+#include "buckens/spatial/principal_axes.h"
 
 namespace buckens::analysis {
 
@@ -25,9 +24,9 @@ namespace {
 
 /// Report from mesh and mass properties; `fe` is null for rigid bodies.
 void describe(const fem::FeModel* fe, const body::FreeModes& modes, BodyReport& out) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(out.inertia);
+  const Eigen::Vector3d principal = spatial::principal_axes(out.inertia).values;
   for (std::size_t k = 0; k < 3; ++k) {
-    out.principal_inertia[k] = principal.eigenvalues()[static_cast<Eigen::Index>(k)];
+    out.principal_inertia[k] = principal[static_cast<Eigen::Index>(k)];
   }
   if (fe == nullptr) return;
   out.is_flexible = true;

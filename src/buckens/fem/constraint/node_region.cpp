@@ -5,11 +5,11 @@
 #include <map>
 #include <numeric>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "buckens/fem/shell/shares.h"
+#include "buckens/spatial/principal_axes.h"
 
 namespace buckens::fem {
 
@@ -151,8 +151,8 @@ std::vector<ElementFace> faces_within(const Structure& structure, const std::vec
 }
 
 bool NodeRegion::turns() const {
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(spread, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues()[0] > kOnLine * eigen.eigenvalues()[2];
+  const Vector3d moments = spatial::principal_values(spread);
+  return moments[0] > kOnLine * moments[2];
 }
 
 NodeRegion face_region(const Structure& structure, const FaceSet& faces) {

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/element/node_label.h"
 #include "buckens/fem/element/scatter.h"
+#include "buckens/spatial/principal_axes.h"
 
 namespace buckens::fem {
 
@@ -48,9 +48,9 @@ void PointMassBlock::check(const MeshView& mesh) const {
     }
     if (element.inertia.isZero(0.0)) continue;
     const double size = element.inertia.norm();
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(element.inertia);
+    const Vector3d principal = spatial::principal_axes(element.inertia).values;
     if (!element.inertia.isApprox(element.inertia.transpose(), 1e-12) ||
-        !(principal.eigenvalues().minCoeff() >= -1e-12 * size)) {
+        !(principal.minCoeff() >= -1e-12 * size)) {
       throw ModelError(where + ": the inertia must be symmetric without negative principal values");
     }
     const auto& dofs = mesh.dofs.node_dofs[static_cast<std::size_t>(element.node)];
@@ -78,10 +78,10 @@ void PointMassBlock::add_inertia(const MeshView& mesh, const Vector3d& com, Iner
     if (!element.inertia.isZero(0.0)) {
       const Matrix3d second =
           0.5 * element.inertia.trace() * Matrix3d::Identity() - element.inertia;
-      const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(second);
+      const spatial::PrincipalAxes principal = spatial::principal_axes(second);
       for (int k = 0; k < 3; ++k) {
-        const Vector3d e = principal.eigenvectors().col(k);
-        inertia.add(principal.eigenvalues()[k], rotation_field(e), {e, Vector3d::Zero()});
+        const Vector3d e = principal.vectors.col(k);
+        inertia.add(principal.values[k], rotation_field(e), {e, Vector3d::Zero()});
       }
     }
     inertia.symmetrise();

@@ -5,11 +5,11 @@
 #include <map>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "buckens/fem/solid/block.h"
 #include "buckens/fem/solid/element.h"
+#include "buckens/spatial/principal_axes.h"
 
 namespace buckens::fem {
 
@@ -301,8 +301,7 @@ void SolidStrains::stresses(const TensorColumns& strain_at_places,
 }
 
 Vector3d principal_stresses(const Eigen::Ref<const Tensor>& s) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(matrix_of(s), Eigen::EigenvaluesOnly);
-  return solver.eigenvalues().reverse();
+  return spatial::principal_values(matrix_of(s)).reverse();
 }
 
 }  // namespace buckens::fem

@@ -2,11 +2,11 @@
 // *MASS and *ROTARY INERTIA.
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "buckens/mesh_io/abaqus/cards.h"
+#include "buckens/spatial/principal_axes.h"
 
 namespace buckens::mesh_io {
 
@@ -49,8 +49,7 @@ void read_rotary_inertia(AbaqusReading& in, const DeckKeyword& keyword) {
   I(0, 1) = I(1, 0) = in.lines.number_or(row, 3, 0.0, "product of inertia");
   I(0, 2) = I(2, 0) = in.lines.number_or(row, 4, 0.0, "product of inertia");
   I(1, 2) = I(2, 1) = in.lines.number_or(row, 5, 0.0, "product of inertia");
-  const Vector3d principal =
-      Eigen::SelfAdjointEigenSolver<Matrix3d>(I, Eigen::EigenvaluesOnly).eigenvalues();
+  const Vector3d principal = spatial::principal_values(I);
   // Numbers of seven digits.
   if (principal[0] >= -1e-6 * principal.cwiseAbs().maxCoeff()) return;
   in.lines.fail(row.place, fmt::format("a principal moment of inertia, {:g}, is negative; products "

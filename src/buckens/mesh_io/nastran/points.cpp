@@ -3,12 +3,12 @@
 
 #include <unordered_map>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "buckens/mesh_io/nastran/scalar_elements.h"
 #include "buckens/mesh_io/skip_list.h"
+#include "buckens/spatial/principal_axes.h"
 
 namespace buckens::mesh_io {
 
@@ -58,8 +58,7 @@ void add_mass(const NastranCard& card, const NastranBulk& bulk,
   inertia(2, 0) = inertia(0, 2) = -card.real(11, 0.0);
   inertia(2, 1) = inertia(1, 2) = -card.real(12, 0.0);
   inertia(2, 2) = card.real(13, 0.0);
-  const Vector3d principal =
-      Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+  const Vector3d principal = spatial::principal_values(inertia);
   // Eight digits of a small field.
   if (!(principal[0] >= -1e-7 * principal.cwiseAbs().maxCoeff())) {
     card.fail(8,

@@ -7,11 +7,11 @@
 #include <map>
 #include <set>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "buckens/mesh_io/skip_list.h"
+#include "buckens/spatial/principal_axes.h"
 
 namespace buckens::mesh_io {
 
@@ -363,8 +363,7 @@ void add_nastran_mass_matrix(const NastranCard& card, const NastranBulk& bulk,
     offset = moment / m;
     inertia -= m * (offset.squaredNorm() * Matrix3d::Identity() - offset * offset.transpose());
   }
-  const Vector3d principal =
-      Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+  const Vector3d principal = spatial::principal_values(inertia);
   if (principal[0] < -kRounding * size) {
     refuse(card, fmt::format("a principal moment of inertia, {:g}, is negative", principal[0]));
   }

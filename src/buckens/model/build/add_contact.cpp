@@ -14,6 +14,7 @@
 #include "buckens/model/build/contact_shapes.h"
 #include "buckens/model/build/rigid_contact_rows.h"
 #include "buckens/model/build/rigid_touches.h"
+#include "buckens/spatial/principal_axes.h"
 
 namespace buckens::model {
 
@@ -86,7 +87,7 @@ class ContactBuilder {
     const auto b = static_cast<std::size_t>(id.body);
     const body::Body& body = find_.model().bodies[b];
     if (body.is_flexible()) return;
-    double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.J0).eigenvalues()[0];
+    double least = spatial::principal_axes(body.J0).values[0];
     if (find_.model().planar) {
       const Vector3d normal =
           find_.model().placed[b].R().transpose() * spatial::normal(*find_.model().planar);

@@ -16,6 +16,7 @@
 #include "buckens/model/build/rigid_contact_rows.h"
 #include "buckens/model/build/rigid_pairs.h"
 #include "buckens/model/contact_group.h"
+#include "buckens/spatial/principal_axes.h"
 
 namespace buckens::model {
 
@@ -116,7 +117,7 @@ class GroupBuilder {
     const bool is_centred = member.shape.kind == ContactShape::Kind::sphere &&
                             spec_.coefficient == 0.0 && on_centre(member.marker);
     if (is_centred) return;
-    double least = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.J0).eigenvalues()[0];
+    double least = spatial::principal_axes(body.J0).values[0];
     if (find_.model().planar) {
       const Vector3d normal =
           find_.model().placed[static_cast<std::size_t>(member.marker.body)].R().transpose() *

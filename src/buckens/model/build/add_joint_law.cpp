@@ -16,6 +16,7 @@
 #include "buckens/loads/joint_friction.h"
 #include "buckens/loads/rigid_law.h"
 #include "buckens/model/build/friction_laws.h"
+#include "buckens/spatial/principal_axes.h"
 
 namespace buckens::model {
 
@@ -59,11 +60,11 @@ double moved_inertia(const Model& model, const Coordinate& coordinate, MarkerFin
     const Matrix3d R = model.placed[b].R();
     const Vector3d arm = place - model.placed[b].p;
     const Vector3d moment = R.transpose() * (torque + arm.cross(force));
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(body.J0);
+    const spatial::PrincipalAxes principal = spatial::principal_axes(body.J0);
     for (int k = 0; k < 3; ++k) {
-      const double own = principal.eigenvalues()[k];
+      const double own = principal.values[k];
       if (own <= kNoInertia * body.mass * arm.squaredNorm() || own <= 0.0) continue;
-      inverse += std::pow(principal.eigenvectors().col(k).dot(moment), 2) / own;
+      inverse += std::pow(principal.vectors.col(k).dot(moment), 2) / own;
     }
   };
   add(joint.first, first.p, J.segment<3>(0).transpose(), J.segment<3>(3).transpose());

@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "buckens/base/nearest.h"
 #include "buckens/body/reduction_conflict.h"
 #include "buckens/model/check/marker_names.h"
 #include "buckens/model/check/spec_findings.h"
+#include "buckens/spatial/principal_axes.h"
 
 namespace buckens::model {
 
@@ -26,8 +26,7 @@ Found inertia_problem(const std::vector<double>& entries) {
             entries.size())};
   }
   const Vector3d principal =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(fem::symmetric_matrix(entries))
-          .eigenvalues();  // ascending
+      spatial::principal_axes(fem::symmetric_matrix(entries)).values;  // ascending
   // Data sheets round to three digits or so; planar models often give Izz alone.
   const double tolerance = 1e-3 * std::max(std::abs(principal[0]), principal[2]);
   if (principal[0] < -1e-12 * std::abs(principal[2])) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/spatial/pose.h"
+#include "buckens/spatial/principal_axes.h"
 
 namespace buckens::spatial {
 namespace {
@@ -91,12 +92,36 @@ TEST(Rotation, BetweenDirectionsIsTheShortest) {
   EXPECT_NEAR(std::abs(half.w()), 0, 1e-15);
 }
 
+TEST(Rotation, BetweenNearlyOppositeDirectionsTurnsAcrossBoth) {
+  for (const Eigen::Vector3d& from :
+       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(-0.3, 1, 2)}) {
+    const Eigen::Vector3d aside = 1e-7 * from.norm() * from.unitOrthogonal();
+    for (const Eigen::Vector3d& to : {Eigen::Vector3d(-2 * from), Eigen::Vector3d(aside - from)}) {
+      const Eigen::Quaterniond q = rotation_between(from, to);
+      EXPECT_NEAR(q.norm(), 1, 1e-15);
+      EXPECT_NEAR(q.vec().dot(from.normalized()), 0, 1e-15);
+      EXPECT_NEAR(q.vec().dot(to.normalized()), 0, 1e-15);
+      // The angle follows from a cosine, whose last digit is worth 1e-16 / 1e-7 there.
+      EXPECT_LT((q * from.normalized() - to.normalized()).norm(), 1e-8) << from.transpose();
+    }
+  }
+}
+
 TEST(Rotation, SpinOfABarHasNoneAboutIt) {
   const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, 2) / 3, w(3, -1, 0.5);
   const Eigen::Matrix3d J = 0.2 * (Eigen::Matrix3d::Identity() - axis * axis.transpose());
   EXPECT_LT((spin_of(J, J * w) - (w - axis * axis.dot(w))).norm(), 1e-14);
   const Eigen::Matrix3d full = J + 0.01 * axis * axis.transpose();
   EXPECT_LT((spin_of(full, full * w) - w).norm(), 1e-13);
+  EXPECT_EQ(spin_of(Eigen::Matrix3d::Zero(), w).norm(), 0);
+}
+
+TEST(Rotation, PrincipalAxesDiagonalise) {
+  const Eigen::Matrix3d half = left_jacobian(kTheta), A = half * half.transpose();
+  const PrincipalAxes axes = principal_axes(A);
+  EXPECT_LT((A * axes.vectors - axes.vectors * axes.values.asDiagonal()).norm(), 1e-14 * A.norm());
+  EXPECT_LT((principal_values(A) - axes.values).norm(), 1e-14 * A.norm());
+  EXPECT_LE(axes.values[0], axes.values[2]);
 }
 
 TEST(Pose, ComposesAndInverts) {
