@@ -5,11 +5,11 @@
 #include <memory>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/linalg/dense_cholesky.h"
+#include "buckens/linalg/dense_ldlt.h"
 #include "buckens/linalg/factor_threads.h"
 #include "buckens/linalg/sparse_lu.h"
 #include "buckens/linalg/tall_products.h"
@@ -167,10 +167,10 @@ ModeOperator woodbury_penalty_operator(const SparseMatrix& M, const SparseMatrix
   const auto P = std::make_shared<Matrix>(sieve.P());
   const auto Z = std::make_shared<Matrix>(factor->solve(*P));
   const Matrix small = Matrix::Identity(P->cols(), P->cols()) / penalty + P->transpose() * *Z;
-  const auto inner = std::make_shared<Eigen::LDLT<Matrix>>(small);
+  const auto inner = std::make_shared<linalg::DenseLdlt>(small);
   const auto solve = [factor, P, Z, inner](const Matrix& F) -> Matrix {
     Matrix X = factor->solve(F);
-    X -= *Z * inner->solve(P->transpose() * X);
+    X -= *Z * inner->solve(Matrix(P->transpose() * X));
     return X;
   };
   ModeOperator op;

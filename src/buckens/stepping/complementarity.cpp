@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
+#include "buckens/linalg/dense_ldlt.h"
 #include "buckens/stepping/step_failure.h"
 
 namespace buckens::stepping {
@@ -36,9 +36,9 @@ Vector solve_complementarity(const Matrix& D, const Vector& b) {
     if (!active.empty()) {
       const Matrix A = D(active, active);
       const Vector asked = b(active);
-      const auto factor = (A + least * Matrix::Identity(A.rows(), A.rows())).ldlt();
+      const linalg::DenseLdlt factor(A + least * Matrix::Identity(A.rows(), A.rows()));
       Vector part = factor.solve(asked);
-      part += factor.solve(asked - A * part);  // what `least` has taken
+      part += factor.solve(Vector(asked - A * part));  // what `least` has taken
       P(active) = part;
     }
     int worst = -1;

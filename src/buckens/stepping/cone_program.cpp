@@ -175,10 +175,9 @@ bool ConeProgram::factorise() {
   linalg::SparseMatrix scaling(Q_.rows(), Q_.cols());
   scaling.setFromTriplets(entries.begin(), entries.end());
   scaled_ = Q_ + scaling;
-  if (!is_analysed_) factor_.analyzePattern(scaled_);
+  if (!is_analysed_) factor_.analyse(scaled_);
   is_analysed_ = true;
-  factor_.factorize(scaled_);
-  return factor_.info() == Eigen::Success;
+  return factor_.factorise(scaled_);
 }
 
 void ConeProgram::find_direction(const Vector& wanted, const Vector& open, Iterate& now) {

@@ -3,9 +3,8 @@
 
 #include <vector>
 
-#include <Eigen/SparseCholesky>
-
 #include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/sparse_ldlt.h"
 #include "buckens/stepping/cone_newton.h"
 
 namespace buckens::stepping {
@@ -51,7 +50,7 @@ class ConeProgram {
   linalg::Vector scales_;           // impulses per x
   std::vector<Block> blocks_;
   linalg::SparseMatrix Q_, scaled_;
-  Eigen::SimplicialLDLT<linalg::SparseMatrix> factor_;
+  linalg::SparseLdlt factor_;
   bool is_analysed_ = false;
   linalg::Vector lambda_;
 };

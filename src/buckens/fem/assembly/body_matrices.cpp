@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include <Eigen/Geometry>
-#include <Eigen/SparseCholesky>
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/element/node_label.h"
+#include "buckens/linalg/sparse_ldlt.h"
 
 namespace buckens::fem {
 
@@ -68,8 +68,9 @@ void check_mass(const BodyMatrices& body) {
   SparseMatrix shifted = body.M;
   const double largest = body.M.diagonal().maxCoeff();
   for (int i = 0; i < body.dofs.num_dofs; ++i) shifted.coeffRef(i, i) += kMassless * largest;
-  const Eigen::SimplicialLDLT<SparseMatrix> factor(shifted);
-  if (factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0.0) return;
+  linalg::SparseLdlt factor;
+  factor.analyse(shifted);
+  if (factor.factorise(shifted) && factor.diagonal().minCoeff() > 0.0) return;
   throw ModelError(
       "the mass matrix is not positive: some motion of the nodes would have negative kinetic "
       "energy");

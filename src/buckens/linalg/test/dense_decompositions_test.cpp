@@ -5,10 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "buckens/linalg/dense_cholesky.h"
+#include "buckens/linalg/dense_ldlt.h"
 #include "buckens/linalg/pivoted_qr.h"
 #include "buckens/linalg/pseudo_inverse.h"
 #include "buckens/linalg/singular_values.h"
 #include "buckens/linalg/small_lu.h"
+#include "buckens/linalg/sparse_ldlt.h"
 #include "buckens/linalg/symmetric_eigen.h"
 
 namespace buckens::linalg {
@@ -63,6 +65,29 @@ TEST(DenseDecompositions, GeneralisedEigenvectorsAreOrthonormalInTheSecondMatrix
             kDigitsOfDense * B.norm() * A.norm());
   const Matrix gram = eigen->vectors.transpose() * B * eigen->vectors;
   EXPECT_LT((gram - Matrix::Identity(5, 5)).norm(), kDigitsOfDense * B.norm());
+}
+
+TEST(DenseDecompositions, LdltSolvesWhatIsSemidefinite) {
+  const Matrix half = scattered_matrix(5, 3), A = half * half.transpose(),
+               x = A * scattered_matrix(5, 2);
+  const DenseLdlt factor(A);
+  EXPECT_LT((A * factor.solve(Matrix(A * x)) - A * x).norm(), 1e-9 * (A * x).norm());
+  const Matrix B = positive_definite(5);
+  const Vector b = scattered_matrix(5, 1);
+  EXPECT_LT((B * DenseLdlt(B).solve(b) - b).norm(), kDigitsOfDense * B.norm());
+}
+
+TEST(DenseDecompositions, SparseLdltHasTheInertiaOfItsMatrix) {
+  Matrix A = positive_definite(6);
+  A(2, 2) -= 2 * A.norm();
+  const SparseMatrix sparse = A.sparseView();
+  SparseLdlt factor;
+  factor.analyse(sparse);
+  ASSERT_TRUE(factor.factorise(sparse));
+  EXPECT_EQ((factor.diagonal().array() < 0).count(), 1);
+  const Vector b = scattered_matrix(6, 1);
+  EXPECT_LT((A * factor.solve(b) - b).norm(), kDigitsOfDense * A.norm());
+  EXPECT_FALSE(factor.factorise(SparseMatrix(0 * sparse)));
 }
 
 TEST(DenseDecompositions, PivotedQrFindsRankAndComplement) {
