@@ -234,9 +234,11 @@ show_progress() {
 }
 
 # build_release TARGET...
+# The compiler's memory comes in large pages where the kernel offers them (glibc 2.35): clang takes 5 % less time.
 build_release() {
   (cd "$buckens_root" && set -o pipefail &&
-    NINJA_STATUS='@%f %t ' cmake --build --preset release --target "$@" 2>&1 | show_progress)
+    GLIBC_TUNABLES="${GLIBC_TUNABLES:-glibc.malloc.hugetlb=1}" NINJA_STATUS='@%f %t ' \
+      cmake --build --preset release --target "$@" 2>&1 | show_progress)
 }
 
 buckens_setup() {

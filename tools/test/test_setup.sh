@@ -98,6 +98,11 @@ b.cpp:3: error: no
   40 of 40 steps, 0 s" "$(progress)"
 expect "an estimate" "  10 of 40 steps, 50 s, about 3 min to go" "$(progress_text 10 40 50)"
 
+# The compiler's memory, unless the user has settings of the kind.
+cmake() { echo "tunables $GLIBC_TUNABLES"; }
+expect_words "large pages for the compiler" "tunables glibc.malloc.hugetlb=1" "$(build_release all)"
+expect_words "settings of the user" "tunables glibc.malloc.arena_max=1" "$(GLIBC_TUNABLES=glibc.malloc.arena_max=1 build_release all)"
+
 if [ "$failures" -gt 0 ]; then
   echo "setup: $failures failure(s)"
   exit 1
