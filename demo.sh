@@ -33,23 +33,18 @@ if [ "$with_mpi" = yes ]; then
   only+=(-DBUCKENS_MPI=ON)
   parts+=(buckens_petsc)
 fi
-# Node.js and its packages are installed while the program compiles.
+# Node.js and its packages are installed, and the page is made, while the program compiles.
 if can_make_page; then
   parts+=(buckens_viewer)
   what+=" and the viewer page"
 else
-  say "Installing what makes the viewer page, beside the build"
+  say "Installing what makes the viewer page, and making it, beside the build"
   start_page_setup
 fi
 configure_release "${only[@]}"
 say "Building $what"
 build_release "${parts[@]}"
-if [ "$what" = "the program" ]; then
-  finish_page_setup
-  configure_release "${only[@]}"
-  say "Building the viewer page"
-  build_release buckens_viewer
-fi
+if [ "$what" = "the program" ]; then finish_page_setup; fi
 
 program=build/release/bin/buckens
 model=examples/slider_crank/slider_crank.yaml

@@ -40,6 +40,9 @@ if(BUCKENS_TESTS)
       set_tests_properties(${name} PROPERTIES LABELS viewer TIMEOUT 600 RUN_SERIAL ON COST 1000)
     endif()
   endforeach()
+  # The build strips types without checking them.
+  add_test(NAME viewer.types COMMAND "${BUCKENS_NPM}" run --silent types WORKING_DIRECTORY "${viewer_dir}")
+  set_tests_properties(viewer.types PROPERTIES LABELS viewer TIMEOUT 600)
   add_test(NAME viewer.test-live
            COMMAND "${BUCKENS_NPM}" run --silent test:live -- $<TARGET_FILE:buckens_program>
                    "${PROJECT_SOURCE_DIR}/tests/models/endless.yaml"

@@ -136,15 +136,16 @@ install_npm_packages() {
 
 can_make_page() { has_command node && has_command npm && has_npm_packages; }
 
-# Installs what the viewer page is made with while other work goes on, unless sudo would ask for a password.
-# finish_page_setup waits for it.
+# Installs what the viewer page is made with, and makes it, while other work goes on. Only the packages come first where
+# sudo would ask for a password. finish_page_setup waits for it.
 start_page_setup() {
   page_log="$(mktemp)"
   if [ "$(root_prefix)" = sudo ] && ! sudo -n true 2>/dev/null; then
     install_page_packages
-    return
+    make_page >"$page_log" 2>&1 &
+  else
+    { install_page_packages && make_page; } >"$page_log" 2>&1 &
   fi
-  install_page_packages >"$page_log" 2>&1 &
   page_setup=$!
 }
 
@@ -154,6 +155,14 @@ install_page_packages() (
   buckens_needs_browser=no
   install_debian_packages && install_npm_packages
 )
+
+# The page where the program looks for it, as the target buckens_viewer makes it.
+make_page() {
+  local page="$buckens_root/build/release/share/buckens/viewer.html"
+  mkdir -p "$(dirname "$page")"
+  cmake -D VIEWER_DIR="$buckens_root/viewer" -D NPM="$(command -v npm)" -D PAGE="$page" \
+    -P "$buckens_root/cmake/build_viewer.cmake"
+}
 
 finish_page_setup() {
   local status=0

@@ -67,16 +67,21 @@ expect_words "message of a failing apt-get" "could not install: libmuparser-dev"
 
 # What makes the page is installed beside other work; its messages appear where it fails.
 root_prefix() { echo ""; }
+make_page() { echo "page made" >"$made"; }
+made="$(mktemp)"
 install_page_packages() { echo "npm ci failed"; return 1; }
 start_page_setup
 status=0
 finish_page_setup 2>"$log" || status=$?
 expect "failing set-up of the page" 1 "$status"
 expect "its messages" "npm ci failed" "$(cat "$log")"
+expect "no page without its packages" "" "$(cat "$made")"
 install_page_packages() { echo "fine"; }
 start_page_setup
 finish_page_setup 2>"$log"
 expect "a set-up that succeeds is silent" "" "$(cat "$log")"
+expect "the page is made beside the build" "page made" "$(cat "$made")"
+rm -f "$made"
 
 # Another system: prints the list and continues.
 is_debian() { false; }
