@@ -21,7 +21,7 @@ def shared_functions(path):
 
 def joined_objects():
     """The objects in the order in which they are joined. A build folder may hold others, of an earlier configuration."""
-    rule = next(line for line in (BINARY / "build.ninja").read_text().splitlines() if " -r -nostdlib -o " in line)
+    rule = next(line for line in (BINARY / "build.ninja").read_text().splitlines() if " -r -nostdlib " in line)
     return re.findall(r"[^ ]+_objects\.dir/[^ ]+\.o", rule)
 
 

@@ -7,7 +7,7 @@ buckens_root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 
 # Debian packages that program and page are built with; keep consistent with cmake/BuckensDependencies.cmake.
 buckens_build_packages=(
-  clang-14 cmake ninja-build ccache ca-certificates
+  clang-14 lld-14 cmake ninja-build ccache ca-certificates
   libeigen3-dev libfmt-dev libspdlog-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
   libmuparser-dev libhdf5-dev libgmsh-dev zlib1g-dev libsuitesparse-dev libmetis-dev
   libopenblas-openmp-dev libspectra-dev libcairo2-dev libcpp-httplib-dev
