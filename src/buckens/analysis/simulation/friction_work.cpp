@@ -87,6 +87,22 @@ void FrictionWork::begin_at(const model::State& state) {
   h_ = 0.0;
 }
 
+void FrictionWork::jump(const model::State& state, const std::vector<double>& signals) {
+  if (loads_.empty()) return;
+  const auto motions = dynamics::motions_of(model_, state);
+  const dynamics::Circumstances after = dynamics::circumstances_of(state);
+  dynamics::Circumstances before = after;
+  before.signals = &signals;
+  for (std::size_t n = 0; n < loads_.size(); ++n) {
+    const auto force = [&](const dynamics::Circumstances& around) {
+      return dynamics::joint_rub(model_, loads_[n], motions, state.t, around).force;
+    };
+    const Vector3d change = force(after) - force(before);
+    past_[n].carried += change;
+    past_[n].algorithmic += change;
+  }
+}
+
 void FrictionWork::restart(const model::State& state,
                            const std::vector<dynamics::LoadPower>& of_loads) {
   begin_at(state);

@@ -39,6 +39,9 @@ class FrictionWork {
                               const model::State& end,
                               const std::vector<dynamics::LoadPower>& of_loads,
                               const Blows* blows = nullptr);
+  /// To be called where accelerations have jumped with forces, see ForceJump.
+  /// @param signals t and the values of all signals before the jump; the state has those after it
+  void jump(const model::State& state, const std::vector<double>& signals);
   /// To be called where accelerations of a state have been found anew.
   void restart(const model::State& state, const std::vector<dynamics::LoadPower>& of_loads);
 

@@ -90,6 +90,7 @@ void SimulationRun::pass_samples(const stepping::StepReport& report) {
   if (unsampled_.values == state.memory.signals) return;
   jump_->note(state, &unsampled_.values);
   jump_->pass(march_->stepper(), state);
+  work_->take_force_jump(state, unsampled_.values);
 }
 
 void SimulationRun::find_pairs() {

@@ -203,12 +203,15 @@ void SimulationRun::set_signal(const std::string& name, double value) {
                             dynamics::circumstances_of(state), changes, state.memory);
   };
   jump_->note(state);
+  const std::vector<double> signals_before = state.memory.signals;
   follow({{signal.first_state, value}});
   work_->take_jump(state);
   has_new_inputs_ = true;
   observed_at_ = -1;
   if (steps_taken_ > 0) {
-    if (carries_accelerations()) jump_->pass(march_->stepper(), state);
+    if (!carries_accelerations()) return;
+    jump_->pass(march_->stepper(), state);
+    work_->take_force_jump(state, signals_before);
     return;
   }
   settle_rigid_rows(built_.model, *metric_, prepared_->rows_in_use, state);

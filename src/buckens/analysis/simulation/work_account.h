@@ -48,6 +48,12 @@ class WorkAccount {
   /// To be called when signals of the last state have jumped.
   void take_jump(const model::State& state) { add_shares(parameters_.of_jump(state)); }
 
+  /// To be called when accelerations of the last state have jumped with forces, see ForceJump.
+  /// @param signals t and the values of all signals before the jump
+  void take_force_jump(const model::State& state, const std::vector<double>& signals) {
+    friction_->jump(state, signals);
+  }
+
   /// To be called when pairs have come near or gone away: the loads of the model and what the last
   /// state remembers of them have changed.
   void follow_pairs(const model::State& state);
