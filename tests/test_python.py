@@ -156,10 +156,10 @@ def test_loads_are_set_between_steps():
         now.set_load("drive", [-200 * cart.position[0], 0, 0])
 
     sim.run()
-    # x = sin(w t)/w with w = 10. What is measured at the end of a step is reached at that of the next:
-    # a delay of h, which is a damping of -k h and lets the amplitude grow by e^(w^2 h t/2); what
+    # x = sin(w t)/w with w = 10. What is measured at the end of a step is held over the next one: a mean
+    # delay of h/2, which is a damping of -k h/2 and lets the amplitude grow by e^(w^2 h t/4); what
     # remains is of second order in w h = 1e-3.
-    exact = math.sin(10) / 10 * math.exp(100 * 1e-4 / 2)
+    exact = math.sin(10) / 10 * math.exp(100 * 1e-4 / 4)
     assert cart.position[0] == pytest.approx(exact, rel=1e-4)
     assert sim.curves == {}
 

@@ -14,7 +14,7 @@ INT, DOUBLE, FLOAT = (ctypes.POINTER(kind) for kind in (ctypes.c_int, ctypes.c_d
 
 
 # Of src/buckens/linalg/grid_plugin.h, whose structures stand below.
-VERSION = 7
+VERSION = 8
 
 
 class Columns(ctypes.Structure):
@@ -64,9 +64,9 @@ class Plugin(ctypes.Structure):
                                             ctypes.c_int)),
                 ("divide_rows", ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_int, ctypes.c_int, ctypes.POINTER(Columns), ctypes.c_char_p,
                                                  ctypes.c_int)),
-                ("make_columns", ctypes.c_void_p), ("add_up", ctypes.c_void_p),
+                ("make_rows", ctypes.c_void_p), ("make_columns", ctypes.c_void_p), ("add_up", ctypes.c_void_p),
                 ("multiply", ctypes.CFUNCTYPE(None, ctypes.c_int, INT, ctypes.POINTER(DOUBLE), ctypes.POINTER(DOUBLE))),
-                ("inner_product", ctypes.c_void_p), ("diagonal", ctypes.c_void_p), ("marks", ctypes.c_void_p), ("edges", ctypes.c_void_p),
+                ("inner_product", ctypes.c_void_p), ("diagonal", ctypes.c_void_p), ("near_diagonal", ctypes.c_void_p), ("marks", ctypes.c_void_p), ("edges", ctypes.c_void_p),
                 ("gather", ctypes.CFUNCTYPE(None, ctypes.c_int, INT, INT, DOUBLE)),
                 ("forget", ctypes.CFUNCTYPE(None, ctypes.c_int)),
                 ("make_pairs", ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_int, ctypes.c_int, ctypes.c_char_p, ctypes.c_int)),
