@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -33,17 +34,22 @@ bool asks(int argc, const char* const* argv, std::string_view word) {
   return std::find(argv + std::min(argc, 1), argv + argc, word) != argv + argc;
 }
 
+int report(int argc, const char* const* argv, ExitCode code, std::string kind,
+           std::string message) {
+  Failure failure;
+  failure.code = code;
+  failure.kind = std::move(kind);
+  failure.message = std::move(message);
+  return report_failure(failure, asks(argc, argv, "--json"));
+}
+
 /// Of the first process on a machine that lacks the plug-in; the others are silent.
 int refuse(int argc, const char* const* argv, const linalg::StartedProcesses& started) {
   if (started.rank_on_machine > 0) return static_cast<int>(ExitCode::io);
-  Failure failure;
-  failure.code = ExitCode::io;
-  failure.kind = "io";
-  failure.message = fmt::format(
-      "mpirun has started {} processes, which share large solves by PETSc: {}; or run it without "
-      "mpirun",
-      started.count, linalg::missing_grid_solver());
-  return report_failure(failure, asks(argc, argv, "--json"));
+  return report(argc, argv, ExitCode::io, "io",
+                fmt::format("mpirun has started {} processes, which share large solves by PETSc: "
+                            "{}; or run it without mpirun",
+                            started.count, linalg::missing_grid_solver()));
 }
 
 /// Time for the processes to find each other. MPI itself waits for ever if one of them never joins.
@@ -109,14 +115,11 @@ bool repeats_sweep(int argc, const char* const* argv) {
 
 int refuse_sweep(int argc, const char* const* argv, const linalg::StartedProcesses& started) {
   if (started.rank > 0) return static_cast<int>(ExitCode::input);
-  Failure failure;
-  failure.code = ExitCode::input;
-  failure.kind = "input";
-  failure.message = fmt::format(
-      "mpirun has started {} processes, each of which would run all variants of the sweep; start "
-      "it without mpirun, or give each process its part (--shard I/{})",
-      started.count, started.count);
-  return report_failure(failure, asks(argc, argv, "--json"));
+  return report(argc, argv, ExitCode::input, "input",
+                fmt::format("mpirun has started {} processes, each of which would run all variants "
+                            "of the sweep; start it without mpirun, or give each process its part "
+                            "(--shard I/{})",
+                            started.count, started.count));
 }
 
 }  // namespace

@@ -59,6 +59,16 @@ void Ranks::give(Task task, int number) {
   give(order);
 }
 
+Ranks::Order Ranks::give_new(Task task, int rows, int columns) {
+  Order order;
+  order.task = task;
+  order.number = next_++;
+  order.size = rows;
+  order.columns = columns;
+  give(order);
+  return order;
+}
+
 void Ranks::count_messages(int messages, double bytes_each) {
   traffic_.messages += messages;
   traffic_.bytes += messages * bytes_each;

@@ -81,6 +81,8 @@ class Ranks {
   Ranks();
   void give(const Order& order);
   void give(Task task, int number = 0);
+  /// Gives an order to make something new, and returns it with its number.
+  Order give_new(Task task, int rows, int columns = 0);
   Order wait_for_order();
   void count_messages(int messages, double bytes_each);
   template <class T>

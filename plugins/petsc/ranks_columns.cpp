@@ -9,21 +9,12 @@
 namespace buckens_petsc {
 
 int Ranks::make_columns(int size, const BuckensGridDescription& of, BuckensGridFacts& facts) {
-  Order order;
-  order.task = Task::make_columns;
-  order.number = next_++;
-  order.size = size;
-  give(order);
+  const Order order = give_new(Task::make_columns, size);
   return make_columns_together(order, &of, facts) ? order.number : -1;
 }
 
 int Ranks::make_rows(int rows, int columns, const BuckensGridDescription& of) {
-  Order order;
-  order.task = Task::make_rows;
-  order.number = next_++;
-  order.size = rows;
-  order.columns = columns;
-  give(order);
+  const Order order = give_new(Task::make_rows, rows, columns);
   BuckensGridFacts facts{};
   return make_columns_together(order, &of, facts) ? order.number : -1;
 }

@@ -69,21 +69,12 @@ int Ranks::divide(int size, const BuckensGridColumns& all, BuckensGridFacts& fac
     set_reason("it has entries on one side of the diagonal that are not on the other");
     return -1;
   }
-  Order order;
-  order.task = Task::divide;
-  order.number = next_++;
-  order.size = size;
-  give(order);
+  const Order order = give_new(Task::divide, size);
   return divide_together(order, &all, facts) ? order.number : -1;
 }
 
 int Ranks::divide_rows(int rows, int columns, const BuckensGridColumns& all) {
-  Order order;
-  order.task = Task::divide_rows;
-  order.number = next_++;
-  order.size = rows;
-  order.columns = columns;
-  give(order);
+  const Order order = give_new(Task::divide_rows, rows, columns);
   BuckensGridFacts facts{};
   return divide_together(order, &all, facts) ? order.number : -1;
 }

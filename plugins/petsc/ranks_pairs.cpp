@@ -36,12 +36,7 @@ void add(float factor, const float* from, std::size_t count, float* to) {
 }  // namespace
 
 int Ranks::make_pairs(int rows, int most) {
-  Order order;
-  order.task = Task::make_pairs;
-  order.number = next_++;
-  order.size = rows;
-  order.columns = most;
-  give(order);
+  const Order order = give_new(Task::make_pairs, rows, most);
   return make_pairs_together(order) ? order.number : -1;
 }
 
