@@ -1,6 +1,7 @@
 # Tests, found by globbing:
 #   src/buckens/<module>/test/*_test.cpp  -> <module>_test      label unit
 #   verification/*/*_test.cpp             -> verification_test  label verify
+#   verification/monolithic/*.cpp         -> buckens_monolithic, a library for those
 #   tests/test_*.py                       -> pytest, label cli
 #   tools/check_*                         -> structural checks  label structure
 #   tests/kill/*.cpp                      -> programs used by those
@@ -57,10 +58,19 @@ foreach(module IN LISTS modules)
   endif()
 endforeach()
 
+# The slow alternative for a step, with which those tests compare: optimised, unlike tests.
+file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/verification/monolithic/*.cpp")
+add_library(buckens_monolithic STATIC EXCLUDE_FROM_ALL ${sources})
+target_include_directories(buckens_monolithic PUBLIC "${PROJECT_SOURCE_DIR}")
+target_link_libraries(buckens_monolithic PUBLIC buckens buckens_common)
+buckens_in_pieces(buckens_monolithic "${PROJECT_SOURCE_DIR}" 0)
+
 file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/verification/*/*_test.cpp"
      "${PROJECT_SOURCE_DIR}/verification/*.cpp")
 if(sources)
   buckens_test(verification_test verify buckens ${sources})
+  target_link_libraries(verification_test PRIVATE buckens_monolithic)
+  buckens_link_library_first(verification_test buckens_monolithic)
   buckens_in_pieces(verification_test "${PROJECT_SOURCE_DIR}" 32)
 endif()
 

@@ -26,7 +26,7 @@ if [ ${#files[@]} -eq 0 ]; then
   exit 0
 fi
 # The compilation database lists unity pieces, not sources: so flags are given here.
-flags=(-std=c++20 -DBUCKENS_GMSH_LIBRARY=\"libgmsh.so\" -Isrc -Iapps "-I$build/generated" -isystem /usr/include/eigen3
+flags=(-std=c++20 -DBUCKENS_GMSH_LIBRARY=\"libgmsh.so\" -I. -Isrc -Iapps "-I$build/generated" -isystem /usr/include/eigen3
   -isystem /usr/include/hdf5/serial -isystem /usr/include/suitesparse -isystem /usr/include/cairo
   -isystem "/usr/include/$(clang-14 -print-multiarch)/openblas-openmp")
 if ! printf '%s\0' "${files[@]}" |

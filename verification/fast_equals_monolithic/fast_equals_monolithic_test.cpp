@@ -350,10 +350,10 @@ TEST(FastEqualsMonolithic, StepsOfChangingLength) {
     SCOPED_TRACE(stepping::to_string(method));
     stepping::StepSettings settings = tight(method, 1e-3);
     stepping::Stepper fast(model, settings, start.rows_in_use);
-    stepping::MonolithicStepper slow(model, settings, start.rows_in_use);
+    MonolithicStepper slow(model, settings, start.rows_in_use);
     settings.step = 5e-4;
     stepping::Stepper fast_half(model, settings, start.rows_in_use);
-    stepping::MonolithicStepper slow_half(model, settings, start.rows_in_use);
+    MonolithicStepper slow_half(model, settings, start.rows_in_use);
     model::State a = start.state;
     model::State b = start.state;
     Deviations deviations;

@@ -6,8 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "verification/monolithic/stepper.h"
+
 #include "buckens/dynamics/test/example_models.h"
-#include "buckens/stepping/monolithic_stepper.h"
 #include "buckens/stepping/stepper.h"
 
 namespace buckens::verification {
@@ -70,7 +71,7 @@ inline void expect_same(const model::Model& model, const test::Start& start,
   SCOPED_TRACE(stepping::to_string(settings.method));
   const double h = settings.step;
   stepping::Stepper fast(model, settings, start.rows_in_use);
-  stepping::MonolithicStepper slow(model, settings, start.rows_in_use);
+  MonolithicStepper slow(model, settings, start.rows_in_use);
   model::State a = start.state;
   model::State b = start.state;
   Deviations deviations;

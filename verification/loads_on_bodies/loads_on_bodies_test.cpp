@@ -4,10 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "verification/monolithic/stepper.h"
+
 #include "buckens/dynamics/energy.h"
 #include "buckens/dynamics/mass_metric.h"
 #include "buckens/model/test/described.h"
-#include "buckens/stepping/monolithic_stepper.h"
 #include "buckens/stepping/test/simulate.h"
 
 namespace buckens::verification::loads_on_bodies {
@@ -16,7 +17,6 @@ namespace {
 using Eigen::Vector3d;
 using model::test::constant_law;
 using stepping::Method;
-using stepping::MonolithicStepper;
 using stepping::Stepper;
 
 constexpr int kLoadSteps = 20;

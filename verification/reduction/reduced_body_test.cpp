@@ -4,9 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "verification/monolithic/stepper.h"
+
 #include "buckens/body/reduction.h"
 #include "buckens/dynamics/test/example_models.h"
-#include "buckens/stepping/monolithic_stepper.h"
 #include "buckens/stepping/test/simulate.h"
 
 namespace buckens::verification::reduction {
@@ -14,7 +15,6 @@ namespace {
 
 using linalg::Vector;
 using stepping::Method;
-using stepping::MonolithicStepper;
 using stepping::Stepper;
 using stepping::StepSettings;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/stepping/monolithic_part.h"
+#include "verification/monolithic/part.h"
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 #include "buckens/linalg/pivoted_qr.h"
 #include "buckens/spatial/rotation.h"
 
-namespace buckens::stepping {
+namespace buckens::verification {
 
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
@@ -54,7 +54,7 @@ void MonolithicStepper::Part::set_moments(const Vector& d, const Vector& d_dot) 
                                     patterns.transpose() * d_dot);
 }
 
-MonolithicStepper::Part::Matrix6 MonolithicStepper::Part::metric(const Scheme& scheme,
+MonolithicStepper::Part::Matrix6 MonolithicStepper::Part::metric(const stepping::Scheme& scheme,
                                                                  const Vector3d& w) const {
   Matrix6 out = Matrix6::Zero();
   out.topLeftCorner<3, 3>() =
@@ -84,4 +84,4 @@ dynamics::BodyMotion MonolithicStepper::Part::motion(double weight, bool correct
   return out;
 }
 
-}  // namespace buckens::stepping
+}  // namespace buckens::verification

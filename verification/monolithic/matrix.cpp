@@ -2,9 +2,9 @@
 // The matrix of a monolithic step: what stays within the step, and what each iteration adds.
 #include <utility>
 
-#include "buckens/stepping/monolithic_part.h"
+#include "verification/monolithic/part.h"
 
-namespace buckens::stepping {
+namespace buckens::verification {
 
 using Eigen::MatrixXd;
 using linalg::SparseMatrix;
@@ -164,4 +164,4 @@ void MonolithicStepper::tangent(std::vector<Triplet>& out) const {
   });
 }
 
-}  // namespace buckens::stepping
+}  // namespace buckens::verification

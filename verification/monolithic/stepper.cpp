@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "buckens/stepping/monolithic_stepper.h"
+#include "verification/monolithic/stepper.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,15 +7,16 @@
 
 #include <fmt/format.h>
 
+#include "verification/monolithic/part.h"
+
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/coupling_terms.h"
 #include "buckens/dynamics/drives.h"
 #include "buckens/dynamics/frame_equation.h"
 #include "buckens/dynamics/row_memory.h"
 #include "buckens/stepping/change_of_step.h"
-#include "buckens/stepping/monolithic_part.h"
 
-namespace buckens::stepping {
+namespace buckens::verification {
 
 using Eigen::Vector3d;
 using linalg::SparseMatrix;
@@ -23,7 +24,8 @@ using linalg::Triplet;
 using linalg::Vector;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-MonolithicStepper::MonolithicStepper(const model::Model& model, const StepSettings& settings,
+MonolithicStepper::MonolithicStepper(const model::Model& model,
+                                     const stepping::StepSettings& settings,
                                      std::vector<int> rows_in_use)
     : model_(model),
       settings_(settings),
@@ -229,7 +231,7 @@ double MonolithicStepper::apply(const Vector& change, double& motion) {
   return largest;
 }
 
-void MonolithicStepper::iterate(double t, StepReport& report) {
+void MonolithicStepper::iterate(double t, stepping::StepReport& report) {
   double before = 0;
   for (int iteration = 0; iteration < settings_.max_newton; ++iteration) {
     follow_regimes();
@@ -300,10 +302,10 @@ model::State MonolithicStepper::next_state(const model::State& state) const {
   return next;
 }
 
-StepReport MonolithicStepper::step(model::State& state) {
-  StepReport report;
+stepping::StepReport MonolithicStepper::step(model::State& state) {
+  stepping::StepReport report;
   model::State from = state;
-  if (must_rescale(state, scheme_)) rescale_algorithmic(from, scheme_);
+  if (stepping::must_rescale(state, scheme_)) stepping::rescale_algorithmic(from, scheme_);
   start(from);
   predict(state.t);
   iterate(state.t, report);
@@ -317,4 +319,4 @@ StepReport MonolithicStepper::step(model::State& state) {
   return report;
 }
 
-}  // namespace buckens::stepping
+}  // namespace buckens::verification

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rigid rows of force laws, and laws that are held, in the slow route of a step.
-#include "buckens/stepping/monolithic_stepper.h"
+#include "verification/monolithic/stepper.h"
 
-namespace buckens::stepping {
+namespace buckens::verification {
 
 using linalg::Triplet;
 using linalg::Vector;
@@ -79,4 +79,4 @@ bool MonolithicStepper::move_rigid_rows() {
   return true;
 }
 
-}  // namespace buckens::stepping
+}  // namespace buckens::verification

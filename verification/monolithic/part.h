@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "verification/monolithic/stepper.h"
+
 #include "buckens/body/body.h"
 #include "buckens/dynamics/system_kinematics.h"
 #include "buckens/model/state.h"
-#include "buckens/stepping/monolithic_stepper.h"
 #include "buckens/stepping/scheme.h"
 
-namespace buckens::stepping {
+namespace buckens::verification {
 
 /// Unknowns of one body: u and Δ carry velocity, κ and η are corrections. Columns −1 are absent.
 struct MonolithicStepper::Part {
@@ -23,8 +24,8 @@ struct MonolithicStepper::Part {
   int nodal = 0, nodal_multiplier = 0, nodal_correction = 0, correction_multiplier = 0;
 
   const model::BodyState* before = nullptr;
-  History<Vector6> frame_history;
-  History<linalg::Vector> nodal_history;
+  stepping::History<Vector6> frame_history;
+  stepping::History<linalg::Vector> nodal_history;
   Vector6 u, kappa;
   linalg::Vector delta, eta;
   Matrix6 W;                      // of the correction: at the predicted motion
@@ -34,7 +35,7 @@ struct MonolithicStepper::Part {
   bool is_flexible() const { return body.is_flexible(); }
   void set_moments(const linalg::Vector& d, const linalg::Vector& d_dot);
   /// The mass matrix of the frame and its gyroscopic tangent, weighted as the method does.
-  Matrix6 metric(const Scheme& scheme, const Eigen::Vector3d& w) const;
+  Matrix6 metric(const stepping::Scheme& scheme, const Eigen::Vector3d& w) const;
   /// Motion at a time within the step.
   /// @param weight         share of the increments
   /// @param corrected      whether with the corrections
@@ -44,4 +45,4 @@ struct MonolithicStepper::Part {
                               const Vector6& frame_rate, const linalg::Vector* nodal_rate) const;
 };
 
-}  // namespace buckens::stepping
+}  // namespace buckens::verification

@@ -12,7 +12,7 @@
 #include "buckens/stepping/scheme.h"
 #include "buckens/stepping/step_settings.h"
 
-namespace buckens::stepping {
+namespace buckens::verification {
 
 /// The slow alternative for a step, for tests: one sparse saddle-point system in all unknowns.
 ///
@@ -35,16 +35,16 @@ namespace buckens::stepping {
 class MonolithicStepper {
  public:
   /// @param rows_in_use independent joint rows
-  MonolithicStepper(const model::Model& model, const StepSettings& settings,
+  MonolithicStepper(const model::Model& model, const stepping::StepSettings& settings,
                     std::vector<int> rows_in_use);
   ~MonolithicStepper();
 
   /// Advances `state` by one step, iterating until changes are at rounding or at
   /// `settings.newton_tolerance` relative to the motion of the step.
   /// @throws NumericalError if the iteration does not converge; `state` is then unchanged
-  StepReport step(model::State& state);
+  stepping::StepReport step(model::State& state);
 
-  const Scheme& scheme() const { return scheme_; }
+  const stepping::Scheme& scheme() const { return scheme_; }
 
  private:
   struct Part;  // one body: its unknowns and its motion within the step
@@ -82,24 +82,24 @@ class MonolithicStepper {
   linalg::Vector residual(double t) const;
   void body_residual(std::size_t b, linalg::Vector& r) const;
   double apply(const linalg::Vector& change, double& motion);
-  void iterate(double t, StepReport& report);
+  void iterate(double t, stepping::StepReport& report);
   model::State next_state(const model::State& state) const;
 
   const model::Model& model_;
-  StepSettings settings_;
-  Scheme scheme_;
+  stepping::StepSettings settings_;
+  stepping::Scheme scheme_;
   std::vector<int> rows_in_use_;
   std::vector<char> rates_only_;  // of each row of λ
   std::vector<std::unique_ptr<Part>> parts_;
   int first_lambda_ = 0, first_correction_ = 0, size_ = 0;
   int first_rigid_ = 0, first_rigid_correction_ = 0;
-  RigidRows rigid_;
+  stepping::RigidRows rigid_;
   linalg::Vector z_;                    // all unknowns
   linalg::Vector lambda_;               // [N, N m]
   std::vector<linalg::Triplet> fixed_;  // what does not change within a step
   linalg::SparseMatrix fixed_matrix_;
   dynamics::SoftRows soft_;
-  HeldLaws held_;
+  stepping::HeldLaws held_;
   std::vector<int> regimes_before_;  // of the iteration before
   // For the corrections of positions: as predicted, but rigid rows as they stand now.
   dynamics::SoftRows correcting_;
@@ -111,4 +111,4 @@ class MonolithicStepper {
   model::RowMemory memory_;  // at the start of the step
 };
 
-}  // namespace buckens::stepping
+}  // namespace buckens::verification
