@@ -88,15 +88,8 @@ function(buckens_library)
   endforeach()
   # One object of all parts: from an archive of many, programs would take them in an order of their own.
   set(joined "${CMAKE_CURRENT_BINARY_DIR}/buckens.o")
-  # By lld with clang, where it is installed: GNU ld takes 40 s for 65 000 groups of sections, lld one. (What gold joins has
-  # tables of exceptions that GNU ld refuses.)
-  find_program(BUCKENS_LLD NAMES ld.lld-14 ld.lld)
-  mark_as_advanced(BUCKENS_LLD)
-  set(linker "")
-  if(BUCKENS_LLD AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
-    set(linker "--ld-path=${BUCKENS_LLD}")
-  endif()
-  add_custom_command(OUTPUT "${joined}" COMMAND "${CMAKE_CXX_COMPILER}" -r -nostdlib ${linker} -o "${joined}" ${parts}
+  # Not by gold: what it joins has tables of exceptions that GNU ld refuses.
+  add_custom_command(OUTPUT "${joined}" COMMAND "${CMAKE_CXX_COMPILER}" -r -nostdlib ${BUCKENS_LINKER} -o "${joined}" ${parts}
                      DEPENDS ${parts} COMMAND_EXPAND_LISTS VERBATIM COMMENT "Joining the objects of the library")
   set_source_files_properties("${joined}" PROPERTIES EXTERNAL_OBJECT TRUE GENERATED TRUE)
   add_library(buckens STATIC "${joined}")
