@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "buckens/dynamics/multiplier_condensation.h"
+#include "buckens/linalg/small_inverse.h"
 #include "buckens/linalg/small_lu.h"
 
 namespace buckens::dynamics {
@@ -19,7 +20,7 @@ constexpr double kSolved = 1e-10;
 constexpr int kMostSweeps = 200;
 // Blocks of up to so many rows are inverted without memory from the heap: eight spots with
 // friction.
-constexpr int kSmall = 24;
+constexpr int kSmall = linalg::kMostSmallRows;
 
 Eigen::Map<const Eigen::Matrix<double, 6, 1>> numbers_of(const double* values) {
   return Eigen::Map<const Eigen::Matrix<double, 6, 1>>(values);
@@ -48,8 +49,7 @@ void invert(Eigen::MatrixXd& S) {
     return;
   }
   const Small before = S;
-  const Small inverse = before.inverse();
-  S = inverse;
+  linalg::small_inverse(before, S);
 }
 
 /// Vectors of the iteration, kept so that steps allocate nothing.

@@ -3,10 +3,9 @@
 
 #include <vector>
 
-#include <Eigen/LU>
-
 #include "buckens/dynamics/circumstances.h"
 #include "buckens/dynamics/system_kinematics.h"
+#include "buckens/linalg/small_lu.h"
 
 namespace buckens::dynamics {
 
@@ -14,9 +13,9 @@ namespace buckens::dynamics {
 struct SignalValues {
   std::vector<double> values;  ///< t, then one per signal
   linalg::Vector x, x_dot;     ///< states of all blocks and their rates
-  linalg::Vector fixed, open, rates, known, method_rates, right;
+  linalg::Vector fixed, open, rates, known, method_rates;
   Eigen::MatrixXd tangent;
-  Eigen::PartialPivLU<Eigen::MatrixXd> factor;
+  linalg::SmallLu factor;
 };
 
 /// What one joint coordinate is taken to be more than it is: for tangents.
