@@ -7,6 +7,9 @@
 # buckens_library() gathers the objects of all modules into buckens::buckens.
 # Sources are globbed: adding a file needs no change here.
 #
+# With BUCKENS_UNITY the modules of a group in BUCKENS_TOGETHER share objects, named after the first of them, so that there
+# are fewer pieces to compile. A module has no library of its own then: its tests link the whole.
+#
 # Of templates and inline functions that several objects hold, the linker takes the first. So optimised objects precede
 # light ones wherever objects are gathered, and steps never run a copy that is not optimised.
 
@@ -42,24 +45,25 @@ function(buckens_module name floor)
   set(light_sources ${sources})
   list(FILTER light_sources INCLUDE REGEX "${BUCKENS_LIGHT}")
   list(REMOVE_ITEM sources ${light_sources})
+  buckens_group(${name} group)
   set(objects "")
-  set(piece_size 40)
-  set(light_piece_size 48)
   foreach(kind IN ITEMS "" light_)
     if(${kind}sources)
-      set(target buckens_${name}_${kind}objects)
-      add_library(${target} OBJECT ${${kind}sources})
+      set(target buckens_${group}_${kind}objects)
+      if(NOT TARGET ${target})
+        add_library(${target} OBJECT)
+        string(TOUPPER "BUCKENS_${kind}OBJECTS" property)
+        set_property(GLOBAL APPEND PROPERTY ${property} ${target})
+      endif()
+      target_sources(${target} PRIVATE ${${kind}sources})
       target_link_libraries(${target} PRIVATE buckens_common ${third_party})
-      buckens_in_pieces(${target} "${PROJECT_SOURCE_DIR}/src" ${${kind}piece_size})
       list(APPEND objects $<TARGET_OBJECTS:${target}>)
-      string(TOUPPER "BUCKENS_${kind}OBJECTS" property)
-      set_property(GLOBAL APPEND PROPERTY ${property} ${target})
     endif()
   endforeach()
-  if(light_sources)
-    target_compile_options(buckens_${name}_light_objects PRIVATE $<$<CONFIG:Release>:-O0>)
-  endif()
-  if(objects)
+  if(BUCKENS_UNITY)
+    add_library(buckens_${name} INTERFACE)
+    target_link_libraries(buckens_${name} INTERFACE buckens buckens_common ${third_party})
+  elseif(objects)
     add_library(buckens_${name} STATIC EXCLUDE_FROM_ALL ${objects})
     set_target_properties(buckens_${name} PROPERTIES LINKER_LANGUAGE CXX)
     target_link_libraries(buckens_${name} PUBLIC ${lower} buckens_common ${third_party})
@@ -74,6 +78,18 @@ function(buckens_module name floor)
   set_property(GLOBAL APPEND PROPERTY BUCKENS_THIRD_PARTY ${ARGN})
 endfunction()
 
+# The first module of the group that a module belongs to.
+function(buckens_group name result)
+  set(${result} ${name} PARENT_SCOPE)
+  foreach(group IN LISTS BUCKENS_TOGETHER)
+    string(REPLACE "+" ";" members "${group}")
+    if(BUCKENS_UNITY AND name IN_LIST members)
+      list(GET members 0 first)
+      set(${result} ${first} PARENT_SCOPE)
+    endif()
+  endforeach()
+endfunction()
+
 # The version stands in the file VERSION alone.
 configure_file("${PROJECT_SOURCE_DIR}/cmake/version.h.in"
                "${BUCKENS_GENERATED_DIR}/buckens/base/version.h" @ONLY)
@@ -82,8 +98,20 @@ function(buckens_library)
   get_property(optimised GLOBAL PROPERTY BUCKENS_OBJECTS)
   get_property(light GLOBAL PROPERTY BUCKENS_LIGHT_OBJECTS)
   get_property(third_party GLOBAL PROPERTY BUCKENS_THIRD_PARTY)
+  set(piece_size 60)
+  set(light_piece_size 110)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # Whose time grows with the square of the number of Eigen's types in a piece.
+    set(piece_size 24)
+  endif()
   set(parts "")
-  foreach(objects IN LISTS optimised light)
+  foreach(objects IN LISTS optimised)
+    buckens_in_pieces(${objects} "${PROJECT_SOURCE_DIR}/src" ${piece_size})
+    list(APPEND parts $<TARGET_OBJECTS:${objects}>)
+  endforeach()
+  foreach(objects IN LISTS light)
+    target_compile_options(${objects} PRIVATE $<$<CONFIG:Release>:-O0>)
+    buckens_in_pieces(${objects} "${PROJECT_SOURCE_DIR}/src" ${light_piece_size})
     list(APPEND parts $<TARGET_OBJECTS:${objects}>)
   endforeach()
   # One object of all parts: from an archive of many, programs would take them in an order of their own.
@@ -147,6 +175,10 @@ endfunction()
 # Puts the library in front of a program's own objects: of templates that both make the linker takes the first, and those
 # of tests and of the command line are not optimised.
 function(buckens_link_library_first name library)
+  get_target_property(kind ${library} TYPE)
+  if(kind STREQUAL INTERFACE_LIBRARY)
+    set(library buckens)
+  endif()
   set(archives $<TARGET_FILE:${library}>)
   string(REGEX REPLACE "^buckens_" "" module ${library})
   get_property(floor GLOBAL PROPERTY BUCKENS_FLOOR_${module})

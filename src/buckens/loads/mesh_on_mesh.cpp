@@ -24,7 +24,7 @@ constexpr double kFacesOfMesh = 6.0;
 // other between their points.
 constexpr double kAlike = 2.25;
 // Share of all forces below which a way has none but by rounding.
-constexpr double kNoForce = 1e-14;
+constexpr double kNoForceOfWay = 1e-14;
 
 constexpr std::size_t kWays = 6, kSpotsOfWay = kMeshSpots / kWays;
 
@@ -157,7 +157,7 @@ void find_mesh_spots(const ContactMesh& first, const ContactMesh& second, const 
   std::fill(spots.begin(), spots.end(), idle);
   for (std::size_t way = 0; way < kWays; ++way) {
     const WaySums& sums = touch.ways[way];
-    if (!(sums.load > kNoForce * touch.load) || !(sums.force.norm() > 0.0)) continue;
+    if (!(sums.load > kNoForceOfWay * touch.load) || !(sums.force.norm() > 0.0)) continue;
     set_spots_of_way(sums, way / 2, per_area,
                      std::span<ContactSpot, kSpotsOfWay>(&spots[way * kSpotsOfWay], kSpotsOfWay));
   }

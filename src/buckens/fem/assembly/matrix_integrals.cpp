@@ -31,13 +31,13 @@ constexpr std::array<std::array<int, 2>, 6> kPairs = {
 int epsilon(int i, int j, int k) { return (i - j) * (j - k) * (k - i) / 2; }
 
 /// Where a row of the matrices belongs.
-struct Place {
+struct DofPlace {
   int node = -1;
   int variable = -1;
 };
 
-std::vector<Place> places_of(const DofMap& dofs) {
-  std::vector<Place> out(static_cast<std::size_t>(dofs.num_dofs));
+std::vector<DofPlace> places_of(const DofMap& dofs) {
+  std::vector<DofPlace> out(static_cast<std::size_t>(dofs.num_dofs));
   for (std::size_t node = 0; node < dofs.node_dofs.size(); ++node) {
     for (int k = 0; k < 6; ++k) {
       const int dof = dofs.node_dofs[node][static_cast<std::size_t>(k)];
@@ -137,10 +137,10 @@ class IntegralMaker {
     }
     const double limit = kSameEntry * largest;
     for (int column = 0; column < n_; ++column) {
-      const Place to = places_[static_cast<std::size_t>(column)];
+      const DofPlace to = places_[static_cast<std::size_t>(column)];
       if (to.variable >= 3) continue;
       for (SparseMatrix::InnerIterator it(body_.M, column); it; ++it) {
-        const Place from = places_[static_cast<std::size_t>(it.row())];
+        const DofPlace from = places_[static_cast<std::size_t>(it.row())];
         if (from.variable >= 3) continue;
         if (from.variable != to.variable) {
           if (std::abs(it.value()) > limit) return false;
@@ -157,10 +157,10 @@ class IntegralMaker {
   void make_nodal() {
     std::vector<Triplet> entries;
     for (int column = 0; column < n_; ++column) {
-      const Place to = places_[static_cast<std::size_t>(column)];
+      const DofPlace to = places_[static_cast<std::size_t>(column)];
       if (to.variable >= 3) continue;
       for (SparseMatrix::InnerIterator it(body_.M, column); it; ++it) {
-        const Place from = places_[static_cast<std::size_t>(it.row())];
+        const DofPlace from = places_[static_cast<std::size_t>(it.row())];
         if (from.variable != to.variable) continue;
         entries.emplace_back(from.node, to.node, it.value() / 3.0);
       }
@@ -255,7 +255,7 @@ class IntegralMaker {
   Eigen::RowVector3d rotations_only(int node, int axis) const {
     Eigen::RowVector3d out = Eigen::RowVector3d::Zero();
     for (SparseMatrix::InnerIterator it(body_.M, dof(node, 3 + axis)); it; ++it) {
-      const Place from = places_[static_cast<std::size_t>(it.row())];
+      const DofPlace from = places_[static_cast<std::size_t>(it.row())];
       if (from.variable >= 3) out[from.variable - 3] += it.value();
     }
     return out;
@@ -279,7 +279,7 @@ class IntegralMaker {
   }
 
   const BodyMatrices& body_;
-  std::vector<Place> places_;
+  std::vector<DofPlace> places_;
   int n_;
   bool uses_nodal_ = true;
   std::array<std::vector<Triplet>, 6> W_;
