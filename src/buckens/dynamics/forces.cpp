@@ -178,20 +178,25 @@ void add_joint_forces(const Constraints& constraints, const linalg::Vector& lamb
 
 namespace {
 
-SystemRow tangent_row(const model::Model& model, const model::Load& load, const LoadEnds& ends,
-                      const spatial::PairRow& J) {
-  if (!ends.travel) return system_row(model, load.first, ends.first, load.second, ends.second, J);
-  SystemRow out;
-  // Numbers behind those of joints: it is where the forces are, its joint where the step ends.
-  const int number = model.num_constraint_rows() + load.coordinate;
-  ends.travel->derive({0.0, 0.0, J.segment<3>(9).transpose()}, number, out);
-  return out;
-}
-
 /// Room for shares of markers behind the second, of rows that are no more.
 std::vector<std::vector<BodyRow>>& left_shares() {
   thread_local std::vector<std::vector<BodyRow>> room;
   return room;
+}
+
+/// Gives a row with shares behind the second the room of one that is no more.
+void take_shares(SystemRow& row) {
+  if (row.more.capacity() > 0 || left_shares().empty()) return;
+  row.more = std::move(left_shares().back());
+  left_shares().pop_back();
+}
+
+SystemRow tangent_row(const model::Model& model, const model::Load& load, const LoadEnds& ends,
+                      const spatial::PairRow& J) {
+  SystemRow out;
+  if (ends.travel) take_shares(out);
+  row_of(model, load, ends, J, out);
+  return out;
 }
 
 /// Forgets all rows, but not the room that they took, so that steps allocate nothing.
@@ -209,10 +214,7 @@ void add_parts(const model::Model& model, const model::Load& load, const LoadEnd
                const loads::TwistRow* of_others, SystemRow& out) {
   static const model::MarkerId kNowhere;
   static const body::MarkerKinematics kAtRest;
-  if (!load.others.empty() && out.more.capacity() == 0 && !left_shares().empty()) {
-    out.more = std::move(left_shares().back());
-    left_shares().pop_back();
-  }
+  if (!load.others.empty()) take_shares(out);
   for (std::size_t m = 0; m < load.others.size(); ++m) {
     spatial::PairRow J = spatial::PairRow::Zero();
     J.head<6>() = of_others[m];

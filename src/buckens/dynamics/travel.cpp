@@ -142,14 +142,17 @@ void Travel::add_force(const Vector3d& force, Forces& out) const {
 }
 
 double Travel::bias(const joints::ConstraintRow& constraint, double t) const {
-  const Row own = row(constraint, t);
+  const double out = bias_along(row(constraint, t).e);
+  return constraint.number() == 2 ? out - constraint.driven_acceleration(t, drive()) : out;
+}
+
+double Travel::bias_along(const Vector3d& e) const {
   const double s_dot = rate();
   const Vector3d of_slider = evaluate_bias(model_, joint_.second, motions_).a;
   const Vector3d of_beam = at_.bias(evaluate_bias(model_, node(at_.element), motions_),
                                     evaluate_bias(model_, node(at_.element + 1), motions_));
-  const double out = own.e.dot(of_slider - of_beam - 2.0 * s_dot * at_.tangent_rate() -
-                               s_dot * s_dot * at_.curvature);
-  return constraint.number() == 2 ? out - constraint.driven_acceleration(t, drive()) : out;
+  return e.dot(of_slider - of_beam - 2.0 * s_dot * at_.tangent_rate() -
+               s_dot * s_dot * at_.curvature);
 }
 
 const model::Joint* slider_of(const model::Model& model, const model::Coordinate& coordinate) {
@@ -177,6 +180,17 @@ LoadEnds ends_of(const model::Model& model, const model::Load& load,
     out.other_motions.push_back(out.others.back().motion);
   }
   return out;
+}
+
+void row_of(const model::Model& model, const model::Load& load, const LoadEnds& ends,
+            const spatial::PairRow& J, SystemRow& out) {
+  if (!ends.travel) {
+    out = system_row(model, load.first, ends.first, load.second, ends.second, J);
+    return;
+  }
+  // Numbers behind those of joints: it is where the forces are, its joint where the step ends.
+  const int number = model.num_constraint_rows() + load.coordinate;
+  ends.travel->derive({0.0, 0.0, J.segment<3>(9).transpose()}, number, out);
 }
 
 bool EndsInTurn::are_of(const model::Load& load) const {

@@ -63,8 +63,11 @@ class Travel {
   void add_force(const Eigen::Vector3d& force, Forces& out) const;
   /// Part of g̈ without accelerations of coordinates.
   double bias(const joints::ConstraintRow& constraint, double t) const;
+  /// The same of the displacement along the beam.
+  double coordinate_bias() const { return bias_along(along()); }
 
  private:
+  double bias_along(const Eigen::Vector3d& e) const;
   const model::MarkerId& node(std::size_t k) const { return joint_.track->nodes[k]; }
   /// States of the row along the beam, behind those of the place; may be null.
   const double* drive() const { return states_ == nullptr ? nullptr : states_ + 2; }
@@ -102,6 +105,12 @@ struct LoadEnds {
 };
 LoadEnds ends_of(const model::Model& model, const model::Load& load,
                  const std::vector<BodyMotion>& motions, const model::RowMemory* memory);
+
+/// Derivatives of a scalar between the first two markers of a load.
+/// @param J by their twists; along a beam only its part of the slider's velocity counts
+/// @param out shares of another row, whose room is used
+void row_of(const model::Model& model, const model::Load& load, const LoadEnds& ends,
+            const spatial::PairRow& J, SystemRow& out);
 
 /// Ends of loads one after the other. Loads of the same two markers that follow each other share
 /// them, as the many places of two shapes that touch.

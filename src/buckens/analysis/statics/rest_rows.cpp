@@ -9,7 +9,7 @@
 #include "buckens/analysis/statics/rest_stop.h"
 #include "buckens/analysis/statics/tolerances.h"
 #include "buckens/dynamics/travel.h"
-#include "buckens/loads/ball_friction.h"
+#include "buckens/loads/reaction_follower.h"
 #include "buckens/loads/contact.h"
 #include "buckens/loads/contact_friction.h"
 #include "buckens/loads/coordinate_motor.h"
@@ -55,17 +55,6 @@ bool is_rough_rigid_group(const model::Model& model, std::size_t load) {
       model.contact_groups.begin(), model.contact_groups.end(), [load](const auto& group) {
         return group->load == load && group->rigid && group->rigid->static_coefficient > 0.0;
       });
-}
-
-dynamics::SystemRow rest_row_of(const model::Model& model, const model::Load& load,
-                                const dynamics::LoadEnds& ends, const spatial::PairRow& J) {
-  if (!ends.travel) {
-    return dynamics::system_row(model, load.first, ends.first, load.second, ends.second, J);
-  }
-  dynamics::SystemRow out;
-  ends.travel->derive({0.0, 0.0, J.segment<3>(9).transpose()},
-                      model.num_constraint_rows() + load.coordinate, out);
-  return out;
 }
 
 }  // namespace
@@ -137,11 +126,10 @@ void RestRows::add_friction(const model::State& state, std::size_t k) {
     for (row.part = 0; row.part < element->num_soft_rows(); ++row.part) {
       if (row.part % RestRow::kOfSpot != 0) rows_.push_back(row);
     }
-  } else if (dynamic_cast<const loads::BallFriction*>(element) != nullptr) {
-    row.is_angle = true;
-    for (row.part = 0; row.part < 3; ++row.part) rows_.push_back(row);
   } else if (dynamic_cast<const loads::ReactionFollower*>(element) != nullptr) {
-    rows_.push_back(row);
+    const bool is_ball = load.coordinate < 0;
+    row.is_angle = row.is_angle || is_ball;
+    for (row.part = 0; row.part < (is_ball ? 3 : 1); ++row.part) rows_.push_back(row);
   } else if (const auto* brake = dynamic_cast<const loads::CoordinateBrake*>(element)) {
     const auto motions = dynamics::motions_of(model_, state);
     const dynamics::LoadEnds ends = dynamics::ends_of(model_, load, motions, nullptr);
@@ -180,7 +168,7 @@ void RestRows::evaluate(const std::vector<dynamics::BodyMotion>& motions, double
       find_soft_rows(k, *load.element, sight, soft, out);
       J = soft[static_cast<std::size_t>(row.part)].J;
     }
-    out.rows.push_back(rest_row_of(model_, load, ends, J));
+    dynamics::row_of(model_, load, ends, J, out.rows.emplace_back());
     out.values.push_back(sight.coordinate.value);
     out.pushes.push_back({J.segment<3>(6).transpose(), J.segment<3>(9).transpose()});
     if (row.kind == Kind::one_sided) {
