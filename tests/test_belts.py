@@ -167,6 +167,18 @@ def test_a_ball_rubs_by_its_radius(sensors):
     assert numpy.ptp(out["q.z"][100:]) < 1e-9
 
 
+@pytest.mark.parametrize("joint", [SOCKET, CROSS])
+def test_the_torque_of_a_ball_is_told(sensors, buckens, tmp_path, joint):
+    """What holds the rod against a twist, as a torque that turns it back; about the joint's two arms where it is a cross."""
+    text = ball(joint, "0.03 N m, 0.02 N m, 0", duration="2 s").replace("q: {rotation: rod}", "q: {rotation: rod}, rub: {spring-torque: rub}")
+    out = sensors(text)
+    # It hangs in the torques' direction by 1e-5 rad, of 10 N m/rad.
+    assert out["rub.x"][-1] == pytest.approx(0.03, abs=2e-4) and out["rub.y"][-1] == pytest.approx(0.02, abs=2e-4)
+    assert abs(out["rub.z"][-1]) < 1e-5
+    (tmp_path / "model.yaml").write_text(text.replace("spring-torque: rub", "load-torque: rub"))
+    buckens("check", "model.yaml").must(2, "observe its `spring-torque`")
+
+
 def test_a_swinging_ball_loses_what_friction_takes(sensors):
     for joint in (SOCKET, CROSS):
         text = ball(joint, "0, 0, 0", "preload: 0.2 N m", "1 s").replace(

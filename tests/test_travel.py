@@ -206,6 +206,23 @@ def test_a_bead_on_a_bent_wire_is_a_pendulum(sensors):
     assert out["balance"] == pytest.approx(0, abs=1e-4)
 
 
+def test_laws_along_a_bent_wire_tell_their_forces(sensors):
+    arc = "from: [1, 0, 0], to: [-1, 0, 0], through: [[0, 0, -1]], path: arc"
+    a = math.radians(60)
+    laws = "{spring: {slide-spring: {joint: hole, stiffness: 2 N/m, damping: 0.1 N s/m}}, rub: {slide-friction: {joint: hole, static: 0.1}}}"
+    text = BEAD.replace("FROM", arc).replace("PLACE", f"[{math.sin(a)!r}, 0, {-math.cos(a)!r}]").replace("LOADS", laws)
+    text = text.replace("left: {fixed: {between: [ground, wire/start]}}", "left: {fixed: {between: [{ground: [1, 0, 0]}, wire/start]}}")
+    text = text.replace("sensors: {", "sensors: {spring: {spring-force: spring}, rub: {spring-force: rub}, lost: {energy: {kind: dissipated, of: rub}}, ")
+    out = sensors(text.replace("DURATION", "1"))
+    assert out["spring"] == pytest.approx(2 * out["way.value"] + 0.1 * out["way.rate"], abs=1e-9)
+    # It slides with a tenth of what the wire pushes, to the change of that within an iteration.
+    slides = numpy.abs(out["way.rate"]) > 0.05
+    push = numpy.sqrt(out["hole.x"] ** 2 + out["hole.y"] ** 2 + out["hole.z"] ** 2)
+    assert slides.sum() > 30
+    assert (out["rub"] * numpy.sign(out["way.rate"]))[slides] == pytest.approx(0.1 * push[slides], rel=1e-6)
+    assert out["lost"][-1] > 0.01
+
+
 ERRORS = {
     "a rigid rail": ("hole: {slider-on-beam: {between: [bead, wire/end]}}", ["joint \"hole\"", "\"bead\" has no beams", "slot"]),
     "two drives": ("hole: {slider-on-beam: {between: [wire, bead], velocity: 1 m/s, displacement: 1 m}}",

@@ -8,6 +8,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/forces.h"
+#include "buckens/loads/reaction_follower.h"
 
 namespace buckens::results {
 
@@ -56,7 +57,10 @@ class LoadSensor final : public Sensor {
 
 /// Whether a force element acts by a torque alone.
 bool turns(const model::Model& model, const model::Load& load) {
-  if (load.coordinate < 0) return load.kind == "torsional-spring";
+  if (load.coordinate < 0) {
+    const bool rubs = dynamic_cast<const loads::ReactionFollower*>(load.element.get()) != nullptr;
+    return rubs || load.kind == "torsional-spring";
+  }
   return model.coordinates[static_cast<std::size_t>(load.coordinate)].law.is_angle();
 }
 

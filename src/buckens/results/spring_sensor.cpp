@@ -9,8 +9,9 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
-#include "buckens/dynamics/circumstances.h"
+#include "buckens/dynamics/travel.h"
 #include "buckens/loads/bushing.h"
+#include "buckens/loads/reaction_follower.h"
 #include "buckens/loads/spring_damper.h"
 
 namespace buckens::results {
@@ -32,10 +33,13 @@ class SpringSensor final : public Sensor {
   std::vector<Channel> channels() const override { return {channel_}; }
   void append(const Observation& now, std::vector<double>& values) override {
     const model::Load& load = now.model.loads[load_];
-    const auto first = dynamics::evaluate_marker(now.model, load.first, now.motions).motion;
-    const auto second = dynamics::evaluate_marker(now.model, load.second, now.motions).motion;
+    const dynamics::Circumstances around = circumstances_of(now);
+    const dynamics::LoadEnds ends =
+        dynamics::ends_of(now.model, load, now.motions, around.memory);
     const loads::Action action =
-        dynamics::action_of(now.model, load_, now.state.t, circumstances_of(now), first, second);
+        dynamics::action_of(now.model, load_, now.state.t, around, ends);
+    const spatial::MarkerMotion& first = ends.first.motion;
+    const spatial::MarkerMotion& second = ends.second.motion;
     const Vector3d force = first.R.transpose() * action.on_first.force;
     // About the second marker: that on the first carries the lever of the force, too.
     const Vector3d torque = -(first.R.transpose() * action.on_second.torque);
@@ -76,6 +80,10 @@ std::optional<SpringSensor::Part> part_of(const model::Model& model, const model
   }
   if (dynamic_cast<const loads::Bushing*>(&element) != nullptr) {
     return torque ? Part::torque : Part::force;
+  }
+  // Friction without a coordinate is that of a ball or of a cross.
+  if (torque && dynamic_cast<const loads::ReactionFollower*>(&element) != nullptr) {
+    return Part::torque;
   }
   if (!torque && dynamic_cast<const loads::SpringDamper*>(&element) != nullptr) {
     return Part::along_line;

@@ -89,7 +89,8 @@ Found deflection_problem(const DeflectionSensor& spec, const ModelDescription& m
 Found spring_problem(const std::string& name, bool torque, const ModelDescription& model) {
   std::vector<std::string> known;
   for (const loads::LoadSpec& load : model.loads) {
-    const bool has_it = torque ? std::holds_alternative<loads::TorsionalSpringSpec>(load.kind)
+    const bool has_it = torque ? std::holds_alternative<loads::TorsionalSpringSpec>(load.kind) ||
+                                     std::holds_alternative<loads::BallFrictionSpec>(load.kind)
                                : std::holds_alternative<loads::SpringDamperSpec>(load.kind) ||
                                      std::holds_alternative<loads::RopeSpec>(load.kind) ||
                                      std::holds_alternative<loads::CamSpec>(load.kind);
