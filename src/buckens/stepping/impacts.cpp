@@ -294,10 +294,14 @@ bool Impacts::look(std::size_t index, const dynamics::Circumstances& around,
   touch.rate = sign * sight.coordinate.rate;
   touch.gap = contact.gap;
   if (strikes) {
-    set_approach(touch, law, sight.coordinate, sign, contact.gap);
-    const double e = restitution(law, -touch.rate);
-    if (e > 0.0 && moves_mesh(law)) {
-      const double rate_start = sign * law.start.rate;
+    const double rate_start = sign * law.start.rate;
+    const bool is_on_mesh = moves_mesh(law);
+    // Pressed against its stop, an end of a mesh arrives anew in every step, at the speed that the
+    // force gives to what little it moves. It is at rest if it has none when the step begins.
+    const bool rests = is_on_mesh && restitution(law, std::abs(rate_start)) == 0.0;
+    const double e = rests ? 0.0 : restitution(law, -touch.rate);
+    set_approach(touch, law, rests, sight.coordinate, sign, contact.gap);
+    if (e > 0.0 && is_on_mesh) {
       // What has reversed within the step comes back as fast as it left at most: this takes no
       // work, because its net displacement is zero.
       if (rate_start >= 0.0 && touch.rate >= -rate_start) return false;
@@ -332,8 +336,8 @@ double Impacts::restitution(const Law& law, double approach) const {
   return law.bounces ? law.law->restitution(approach, signals_) : 0.0;
 }
 
-void Impacts::set_approach(Touch& touch, const Law& law, const loads::CoordinateMotion& end,
-                           double sign, double gap) const {
+void Impacts::set_approach(Touch& touch, const Law& law, bool rests,
+                           const loads::CoordinateMotion& end, double sign, double gap) const {
   const double rate_end = sign * end.rate;
   GapOfStep way{gap - sign * end.change, sign * law.start.rate, gap, rate_end, scheme_.h};
   // At another contact point than at the end: it arrives with the rate that it has there.
@@ -344,7 +348,7 @@ void Impacts::set_approach(Touch& touch, const Law& law, const loads::Coordinate
   const double s = way.closes_at();
   touch.approach = std::max(0.0, -way.likely_rate_at(s));
   touch.rest = touch.since = (1.0 - s) * scheme_.h;
-  const double e = restitution(law, touch.approach);
+  const double e = rests ? 0.0 : restitution(law, touch.approach);
   touch.met = -touch.approach;
   touch.target = (1.0 + e) * touch.approach;
   // What returns within the step in which it left, or would not leave at all, stays.

@@ -173,8 +173,9 @@ class Impacts {
   /// Takes restitution from these rows. @return whether any of them would have bounced
   bool stop_bouncing(const std::vector<Eigen::Index>& rows);
   double restitution(const Law& law, double approach) const;
-  void set_approach(Touch& touch, const Law& law, const loads::CoordinateMotion& end, double sign,
-                    double gap) const;
+  /// @param rests it does not rebound
+  void set_approach(Touch& touch, const Law& law, bool rests, const loads::CoordinateMotion& end,
+                    double sign, double gap) const;
   /// For a touch at another contact point: takes its row and speed at the end of the step.
   void take_row_of_end(Touch& touch, const std::vector<dynamics::BodyMotion>& end,
                        const model::RowMemory* memory);
