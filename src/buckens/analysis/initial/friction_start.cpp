@@ -56,10 +56,9 @@ class FrictionStart {
   double admitted(const RestingLaw& law, double strain) {
     const model::Load& load = model_.loads[law.load];
     const auto motions = dynamics::motions_of(model_, state_);
-    const auto first = dynamics::evaluate_marker(model_, load.first, motions).motion;
-    const auto second = dynamics::evaluate_marker(model_, load.second, motions).motion;
+    const dynamics::LoadEnds ends = dynamics::ends_of(model_, load, motions, &state_.memory);
     loads::Sight sight = dynamics::sight_of(model_, law.load, state_.t,
-                                            dynamics::circumstances_of(state_), first, second);
+                                            dynamics::circumstances_of(state_), ends);
     sight.states = &strain;
     double out = 0.0;
     load.element->find_states(sight, &out);
