@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hundred mechanisms made by chance, with every joint between rigid and flexible bodies; see
-// README.md.
+// A hundred mechanisms made by chance, with every joint between rigid and flexible bodies, and
+// gears, belts, racks, couplers, wheels and sliders at their ends; see README.md.
+#include <cmath>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <random>
 #include <string>
@@ -34,6 +36,10 @@ constexpr JointType kTypes[] = {
     JointType::universal,     JointType::parallel,    JointType::constant_velocity,
     JointType::point_on_line, JointType::orientation, JointType::point_in_plane,
     JointType::distance,      JointType::screw,       JointType::slot};
+/// What couples two shafts on a plate, or a body with the plate or with a beam.
+enum class Partner { gear, belt, rack, coupler, wheel, slider };
+constexpr Partner kPartners[] = {Partner::gear,    Partner::belt,  Partner::rack,
+                                 Partner::coupler, Partner::wheel, Partner::slider};
 
 /// Chance that gives the same numbers on every machine, unlike the distributions of <random>.
 class Chance {
@@ -78,6 +84,7 @@ class MechanismByChance {
                                             static_cast<double>(std::size(kTypes)));
       parent = add_link(parent, kTypes[type]);
     }
+    add_partners(parent, kPartners[seed % std::size(kPartners)]);
   }
   model::Model take() { return mechanism_.take(); }
 
@@ -116,7 +123,7 @@ class MechanismByChance {
   void join(const Link& parent, JointType type, const model::MarkerId& near) {
     const model::MarkerId far = end_of(parent);
     const Vector3d axis = chance_.direction();
-    mechanism_.add_joint(type, far, near, axis, std::nullopt, [&](joints::Placement& p) {
+    add_joint(type, far, near, axis, [&](joints::Placement& p) {
       p.pitch = chance_.between(0.02, 0.1);
       if (type == JointType::universal) p.second_axis_F = axis.unitOrthogonal();
       if (type == JointType::slot) {
@@ -174,12 +181,124 @@ class MechanismByChance {
 
   model::MarkerId end_of(const Link& link) {
     if (link.body == model::kGround) return test::Mechanism::ground(link.end_W);
-    if (link.is_flexible) return mechanism_.node_marker(link.body, 2);
+    if (link.is_flexible) return mechanism_.node_marker(link.body, kEndNode);
     return mechanism_.marker_at(link.body, link.end_W);
   }
 
+  /// A body at a place, with axes of the world.
+  int body_at(const Vector3d& place) {
+    const Eigen::Matrix3d J =
+        Vector3d(chance_.between(0.02, 0.05), chance_.between(0.02, 0.05),
+                 chance_.between(0.02, 0.05))
+            .asDiagonal();
+    return mechanism_.add_rigid(chance_.between(0.5, 2), J,
+                                {place, Eigen::Quaterniond::Identity()});
+  }
+
+  /// A shaft in the plate, on a spring. @return the angle as a coordinate
+  int add_shaft(int plate, int wheel, const Vector3d& place, const Vector3d& axis) {
+    add_joint(JointType::revolute, mechanism_.marker_at(plate, place),
+              mechanism_.marker_at(wheel, place), axis);
+    mechanism_.add_law(std::make_unique<loads::CoordinateSpring>(3.0, 0.05, 0.2),
+                       joints::JointCoordinate::angle(axis, Eigen::Matrix3d::Identity()));
+    return mechanism_.add_coordinate(num_joints_ - 1, joints::JointCoordinate::Kind::angle);
+  }
+
+  void add_partners(const Link& end, Partner partner) {
+    const Vector3d place = end.end_W;
+    const int plate = body_at(place + 0.1 * chance_.direction());
+    add_joint(JointType::fixed, end_of(end), mechanism_.marker_at(plate, place));
+    const Vector3d axis = chance_.direction();
+    const Vector3d along = axis.unitOrthogonal();
+    if (partner == Partner::slider) return add_slider(plate, place);
+    if (partner == Partner::wheel) return add_wheel(plate, place, axis, along);
+    const int one = body_at(place);
+    const int first = add_shaft(plate, one, place, axis);
+    if (partner == Partner::rack) return add_rack(plate, one, place, axis, along);
+    const Vector3d aside = place + 0.3 * along;
+    const int two = body_at(aside);
+    const int second = add_shaft(plate, two, aside, axis);
+    if (partner == Partner::coupler) {
+      joints::CoordinateTerm curve;
+      curve.function =
+          joints::CoordinateFunction::polynomial({0, chance_.between(0.5, 1), 0.1, -0.05});
+      mechanism_.add_coupler({{first, curve}, {second, {chance_.between(-2, -1), std::nullopt}}});
+      return;
+    }
+    const bool is_gear = partner == Partner::gear;
+    add_joint(is_gear ? JointType::gear : JointType::belt, mechanism_.marker_at(one, place),
+              mechanism_.marker_at(two, aside), axis, [&](joints::Placement& p) {
+                p.sizes = {is_gear ? 17.0 : 0.1, is_gear ? 29.0 : 0.06};
+                p.pressure_angle = is_gear ? 0.35 : 0.0;
+                p.helix_angle = is_gear ? chance_.between(-0.3, 0.3) : 0.0;
+              });
+  }
+
+  void add_rack(int plate, int pinion, const Vector3d& place, const Vector3d& axis,
+                const Vector3d& along) {
+    const Vector3d below = place - 0.1 * axis.cross(along);
+    const int sled = body_at(below);
+    add_joint(JointType::prismatic, mechanism_.marker_at(plate, below),
+              mechanism_.marker_at(sled, below), along);
+    add_joint(JointType::rack, mechanism_.marker_at(sled, below),
+              mechanism_.marker_at(pinion, place), axis, [&](joints::Placement& p) {
+                p.sizes = {0.1, 0.1};
+                p.second_axis_F = along;
+                p.pressure_angle = 0.35;
+              });
+  }
+
+  /// A wheel on the plate as its plane, which a spring keeps from rolling far.
+  void add_wheel(int plate, const Vector3d& place, const Vector3d& normal, const Vector3d& along) {
+    const double radius = 0.2;
+    // It leans against the plane's normal.
+    const Vector3d axle = (along + chance_.between(-0.4, 0.4) * normal).normalized();
+    const Vector3d up = (normal - axle * axle.dot(normal)).normalized();
+    const Vector3d centre = place + radius * up;
+    const int wheel = body_at(centre);
+    const model::MarkerId plane = mechanism_.marker_at(plate, place);
+    const model::MarkerId hub = mechanism_.marker_at(wheel, centre);
+    add_joint(JointType::rolling, plane, hub, normal, [&](joints::Placement& p) {
+      p.sizes = {radius, radius};
+      p.second_axis_F = axle;
+    });
+    mechanism_.add_load(std::make_unique<loads::SpringDamper>(40.0, 0.5, 0.1, std::nullopt), hub,
+                        mechanism_.marker_at(plate, centre + 0.3 * chance_.direction()));
+  }
+
+  /// A bead on a beam that is welded to the plate.
+  void add_slider(int plate, const Vector3d& place) {
+    test::BeamConstants beam = soft_damped_beam();
+    beam.elements = 2;
+    beam.L = 0.6;
+    const spatial::Pose X{place, spatial::exp_rotation(chance_.point(1.5))};
+    const int rail =
+        mechanism_.add_flexible(test::straight_beam(beam), body::CouplingLevel::full, X);
+    std::vector<model::MarkerId> nodes;
+    for (const int node : {0, 2, 1}) nodes.push_back(mechanism_.node_marker(rail, node));
+    add_joint(JointType::fixed, mechanism_.marker_at(plate, place), nodes.front());
+    const Vector3d at = X * Vector3d(chance_.between(0.25, 0.35), 0, 0);
+    const int bead = body_at(at);
+    mechanism_.add_slider(nodes, mechanism_.marker_at(bead, at));
+    ++num_joints_;
+    mechanism_.add_law(
+        std::make_unique<loads::CoordinateSpring>(20.0, 0.3, 0.1),
+        joints::JointCoordinate::displacement(Vector3d::UnitX(), Vector3d::Zero()));
+  }
+
+  void add_joint(JointType type, const model::MarkerId& first, const model::MarkerId& second,
+                 const Vector3d& axis_F = Vector3d::UnitZ(),
+                 const std::function<void(joints::Placement&)>& more = nullptr) {
+    mechanism_.add_joint(type, first, second, axis_F, std::nullopt, more);
+    ++num_joints_;
+  }
+
+  // The nodes of a beam's ends come first.
+  static constexpr int kEndNode = 1;
+
   Chance chance_;
   test::Mechanism mechanism_;
+  int num_joints_ = 0;
 };
 
 test::Start thrown(const model::Model& model, std::uint32_t seed) {
@@ -232,7 +351,13 @@ TEST(RandomMechanisms, RowsHaveTheDerivativesOfTheirResidualsAndDoTheirWork) {
     dynamics::evaluate_constraints(model, motions, 0.0, &start.state.memory, now);
     const linalg::Vector rates = test::derivative(residual, 1e-4);
     // Rounding ε/h = 2e-12 and truncation (ω h)⁴ are far below.
-    EXPECT_LE((now.g_dot - rates).cwiseAbs().maxCoeff(), 1e-9 * (1 + rates.cwiseAbs().maxCoeff()));
+    for (const model::Joint& joint : model.joints) {
+      for (std::size_t k = 0; k < joint.rows.size(); ++k) {
+        if (joint.rows[k].holds_rates_only()) continue;  // of no position
+        const auto row = joint.first_row + static_cast<Eigen::Index>(k);
+        EXPECT_LE(std::abs(now.g_dot[row] - rates[row]), 1e-9 * (1 + std::abs(rates[row])));
+      }
+    }
 
     linalg::Vector lambda(model.num_constraint_rows());
     for (double& force : lambda) force = chance.between(-1, 1);
