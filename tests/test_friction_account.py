@@ -52,10 +52,11 @@ def test_a_block_that_friction_stops_keeps_its_balance(sensors, tmp_path, method
 
 @pytest.mark.parametrize("method", ["generalised-α without damping", "generalised-α", "HHT"])
 @pytest.mark.parametrize("law, most", [("static: 0.3", 2e-9), (None, 2e-4)])
-def test_blows_do_not_open_it(sensors, method, law, most):
+@pytest.mark.parametrize("stick", ["", ", stick: rigid"])
+def test_blows_do_not_open_it(sensors, method, law, most, stick):
     """In the step of a blow friction does what it did before it, along the way that the block has made, and what changes of it acts over
     the rest of the step. Afterwards the method begins anew, with the friction of that instant."""
-    text = THROWN.replace("STICK", "").replace("STOPS", BETWEEN).replace("METHOD", METHODS[method])
+    text = THROWN.replace("STICK", stick).replace("STOPS", BETWEEN).replace("METHOD", METHODS[method])
     if law:
         text = text.replace("static: 0.4, dynamic: 0.3, stribeck-velocity: 1 m/s, viscous: 0.5", law)
     out = sensors(text)

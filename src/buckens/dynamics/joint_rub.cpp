@@ -3,6 +3,7 @@
 
 #include "buckens/dynamics/citing.h"
 #include "buckens/dynamics/travel.h"
+#include "buckens/loads/coordinate_motor.h"
 #include "buckens/loads/reaction_follower.h"
 
 namespace buckens::dynamics {
@@ -13,7 +14,9 @@ std::vector<std::size_t> rubbing_joints(const model::Model& model) {
   std::vector<std::size_t> out;
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const loads::ForceElement* const element = model.loads[k].element.get();
-    if (dynamic_cast<const loads::ReactionFollower*>(element) != nullptr) out.push_back(k);
+    const bool rubs = dynamic_cast<const loads::ReactionFollower*>(element) != nullptr ||
+                      dynamic_cast<const loads::CoordinateBrake*>(element) != nullptr;
+    if (rubs) out.push_back(k);
   }
   return out;
 }

@@ -18,8 +18,8 @@ struct JointRub {
   Eigen::Vector3d rate = Eigen::Vector3d::Zero();
 };
 
-/// The loads that are dry friction in joints, as indices into Model::loads. Pairs that come near
-/// or go away change neither them nor their places.
+/// The loads that are dry friction in joints, brakes among them, as indices into Model::loads.
+/// Pairs that come near or go away change neither them nor their places.
 std::vector<std::size_t> rubbing_joints(const model::Model& model);
 
 /// One of them. @param load index into Model::loads

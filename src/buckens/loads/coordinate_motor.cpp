@@ -70,6 +70,12 @@ void RateHold::start_states(const Sight& sight, double* states) const {
   states[0] = slip == 0.0 ? kHolds : slipping(slip);
 }
 
+int RateHold::struck_regime(const Sight& sight, double rounding) const {
+  if (sight.stand.regime == kOpen) return kOpen;
+  const double slip = sight.coordinate.rate - aimed(sight);
+  return std::abs(slip) <= rounding ? kHolds : slipping(slip);
+}
+
 RigidRow RateHold::row(const Sight& sight) const {
   const double slip = sight.coordinate.rate - aimed(sight);
   const int regime = sight.stand.regime == 0 ? kHolds : sight.stand.regime;

@@ -51,6 +51,7 @@ class RateHold : public RigidLaw {
  public:
   /// Holds where it has its rate, slips elsewhere.
   void start_states(const Sight& sight, double* states) const final;
+  int struck_regime(const Sight& sight, double rounding) const final;
 
  protected:
   /// Most that it resists with in the direction of a force [N m] or [N]; below zero counts as zero.

@@ -141,6 +141,11 @@ void RigidFriction::start_states(const Sight& sight, double* states) const {
   states[0] = std::abs(rate) * kAtOnce <= bound_.at(sight).data().slip ? 1 : rate > 0.0 ? 2 : 3;
 }
 
+int RigidFriction::struck_regime(const Sight& sight, double rounding) const {
+  const double rate = sight.coordinate.rate;
+  return std::abs(rate) <= rounding ? 1 : rate > 0.0 ? 2 : 3;
+}
+
 RigidRow RigidFriction::row(const Sight& sight) const {
   const double rate = sight.coordinate.rate;
   const FrictionBound bound = bound_.at(sight);

@@ -139,6 +139,7 @@ class RigidFriction final : public RigidLaw, public ReactionFollower {
   double most_at_rest(const Sight& sight) const override {
     return bound_.at(sight).most_at_rest(sight);
   }
+  int struck_regime(const Sight& sight, double rounding) const override;
 
  private:
   RigidRow row(const Sight& sight) const override;

@@ -49,6 +49,15 @@ class RigidLaw : public ForceElement {
   /// Of the coordinate while the row is closed, as far as laws of time and the motion say [m/s²] or
   /// [rad/s²].
   virtual double aimed_acceleration(const Sight& /*sight*/) const { return 0.0; }
+  /// Whether no impulse moves its coordinate: the row takes part in impacts as those of joints do.
+  virtual bool withstands_impacts(const Sight& /*sight*/) const { return false; }
+  /// Regime after an impact that has changed the rate of its coordinate. Impulses exceed any bound,
+  /// so what holds by a bounded force gives way, and what slides may slide the other way.
+  /// @param sight after the impact, with the stand before it
+  /// @param rounding of rates [m/s] or [rad/s]
+  virtual int struck_regime(const Sight& sight, double /*rounding*/) const {
+    return sight.stand.regime;
+  }
 
  protected:
   /// What the row leaves open and which stand follows, without the force itself.
@@ -63,6 +72,7 @@ class CoordinateLock final : public RigidLaw {
 
   int num_states() const override { return 3; }
   void find_states(const Sight& sight, double* states) const override;
+  bool withstands_impacts(const Sight& sight) const override { return sight.stand.regime != 0; }
 
  private:
   RigidRow row(const Sight& sight) const override;

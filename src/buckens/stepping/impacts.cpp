@@ -65,6 +65,7 @@ Impacts::Impacts(const model::Model& model, const Scheme& scheme,
     const auto* law = static_cast<const loads::RigidLaw*>(model.loads[k].element.get());
     if (law->contact(0.0).regime != 0) laws_.push_back({k, law, {}, {}, true});
     const auto* friction = dynamic_cast<const loads::ContactFriction*>(law);
+    if (friction == nullptr && law->contact(0.0).regime == 0) holds_.push_back(k);
     if (friction == nullptr) continue;
     laws_.back().frictions.push_back({k, friction});
     is_rough_ = true;
@@ -141,7 +142,7 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
   }
   std::vector<dynamics::BodyMotion> then = at_impact(motions);
   find_instants();
-  condense(then, bodies, rows_in_use, around.memory, t);
+  condense(then, bodies, rows_in_use, around, t);
   for (Touch& touch : touches_) {
     const double most = std::abs(strongest_near(touch).rate);
     at_own_instant(touch, motions, then, [&](const std::vector<dynamics::BodyMotion>& there) {
@@ -381,9 +382,27 @@ void Impacts::make_impulse_of_step(Touch& touch, double e, double rate_start) co
   touch.rest = 1.0 / scheme_.end_rate;
 }
 
+void Impacts::find_holding(const std::vector<dynamics::BodyMotion>& motions,
+                           const dynamics::Circumstances& around, double t) {
+  holding_.clear();
+  for (const std::size_t k : holds_) {
+    const model::Load& load = model_.loads[k];
+    if (around.memory != nullptr && around.memory->is_off(k)) continue;
+    const auto first = dynamics::evaluate_marker(model_, load.first, motions);
+    const auto second = dynamics::evaluate_marker(model_, load.second, motions);
+    const loads::Sight sight =
+        dynamics::sight_of(model_, k, t, around, first.motion, second.motion);
+    const auto& law = static_cast<const loads::RigidLaw&>(*load.element);
+    if (!law.withstands_impacts(sight)) continue;
+    Push push;
+    set_row(k, 1.0, motions, around.memory, push);
+    holding_.push_back(std::move(push.row));
+  }
+}
+
 void Impacts::condense(const std::vector<dynamics::BodyMotion>& motions,
                        const std::vector<BodyStep>& bodies, const std::vector<int>& rows_in_use,
-                       const model::RowMemory* memory, double t) {
+                       const dynamics::Circumstances& around, double t) {
   compliance_.resize(bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const body::Body& body = model_.bodies[b];
@@ -391,7 +410,8 @@ void Impacts::condense(const std::vector<dynamics::BodyMotion>& motions,
     compliance_[b].frame = dynamics::frame_mobility(body, J);
     compliance_[b].interface = interface_[b].size() > 0 ? &interface_[b] : nullptr;
   }
-  if (answers_to_.condense(compliance_, motions, rows_in_use, memory, t)) return;
+  find_holding(motions, around, t);
+  if (answers_to_.condense(compliance_, motions, rows_in_use, around.memory, t, holding_)) return;
   throw StepFailure(
       fmt::format("the joint equations have become dependent (a singular position) at an impact at "
                   "t = {:.6g} s; look for a dead centre of the mechanism there",
@@ -416,7 +436,7 @@ void Impacts::clear_ends(const Vector& P, const std::vector<dynamics::BodyMotion
     if (!touch.is_of_step) continue;
     ends.push_back({touch.row, touch.gap + PushAnswers::along(touch.row, moved)});
   }
-  const auto shifts = clearance_.find(ends, compliance_, then, rows_in_use, memory, t);
+  const auto shifts = clearance_.find(ends, compliance_, then, rows_in_use, holding_, memory, t);
   for (std::size_t b = 0; b < shifts.size(); ++b) {
     jumps_[b].shift += shifts[b].frame;
     if (shifts[b].impulse_time.size() > 0) jumps_[b].impulse_time += shifts[b].impulse_time;

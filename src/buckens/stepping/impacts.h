@@ -186,7 +186,10 @@ class Impacts {
   bool moves_mesh(const Law& law) const;
   void condense(const std::vector<dynamics::BodyMotion>& motions,
                 const std::vector<BodyStep>& bodies, const std::vector<int>& rows_in_use,
-                const model::RowMemory* memory, double t);
+                const dynamics::Circumstances& around, double t);
+  /// Rows of laws that no impulse moves, which hold as joints do.
+  void find_holding(const std::vector<dynamics::BodyMotion>& motions,
+                    const dynamics::Circumstances& around, double t);
   /// Impulses may cancel each other, as between balls that are wedged. If they would move a body
   /// much further than anything moves in a step, separate instants correspond to no real motion:
   /// all touches of such an island go on from the instant of its strongest impact. Islands with
@@ -222,8 +225,10 @@ class Impacts {
   std::span<const double> signals_;  // of the step looked at last
   std::vector<const BodyAnswer*> answers_;
   std::vector<Law> laws_;
-  bool is_rough_ = false;                    // any of them has friction
-  std::vector<dynamics::BodyMotion> start_;  // of the step
+  std::vector<std::size_t> holds_;            // loads whose rigid row never strikes
+  std::vector<dynamics::SystemRow> holding_;  // of those that no impulse moves
+  bool is_rough_ = false;                     // any of them has friction
+  std::vector<dynamics::BodyMotion> start_;   // of the step
   std::vector<Touch> touches_;
   std::vector<Slip> slips_;
   BlowIslands islands_;

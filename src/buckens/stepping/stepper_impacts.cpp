@@ -7,6 +7,7 @@
 #include "buckens/spatial/rotation.h"
 #include "buckens/stepping/stepper.h"
 #include "buckens/stepping/strand/step.h"
+#include "buckens/stepping/struck_rows.h"
 
 namespace buckens::stepping {
 
@@ -28,6 +29,7 @@ void Stepper::take_impacts(StepReport& report) {
   if (counts_energy) impacts_->lose_in_all(energy - dynamics::energy(model_, next_).total());
   model::RowMemory memory;
   dynamics::advance_memory(model_, motions, next_.t, newton_->around(), memory);
+  follow_struck_rows(model_, before, motions, next_.t, newton_->around(), memory);
   for (const Impacts::Landing& landing : impacts_->landings()) {
     const model::Load& load = model_.load_of_rigid_row(landing.rigid_row);
     memory.laws[load.first_state] = landing.regime;

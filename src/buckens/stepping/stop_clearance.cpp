@@ -17,7 +17,7 @@ constexpr double kMeshes = 1e-9;
 std::vector<StopClearance::Shift> StopClearance::find(
     const std::vector<End>& ends, const std::vector<dynamics::BodyCompliance>& compliance,
     const std::vector<dynamics::BodyMotion>& motions, const std::vector<int>& rows_in_use,
-    const model::RowMemory* memory, double t) {
+    const std::vector<dynamics::SystemRow>& holding, const model::RowMemory* memory, double t) {
   const bool are_clear =
       std::all_of(ends.begin(), ends.end(), [](const End& end) { return end.gap >= 0.0; });
   if (are_clear) return {};
@@ -28,7 +28,7 @@ std::vector<StopClearance::Shift> StopClearance::find(
     interfaces[b] = kMeshes * *compliance[b].interface;
     stiff[b].interface = &interfaces[b];
   }
-  if (!answers_to_.condense(stiff, motions, rows_in_use, memory, t)) return {};
+  if (!answers_to_.condense(stiff, motions, rows_in_use, memory, t, holding)) return {};
   const auto n = static_cast<Eigen::Index>(ends.size());
   std::vector<Push> pushes(ends.size());
   linalg::Matrix D(n, n);

@@ -28,12 +28,14 @@ class StopClearance {
   };
 
   /// @param compliance as for impulses, @param motions where rows and joints are taken
+  /// @param holding rigid rows of force laws that stay closed, too
   /// @return empty if nothing has to move, or if joints have become dependent
   std::vector<Shift> find(const std::vector<End>& ends,
                           const std::vector<dynamics::BodyCompliance>& compliance,
                           const std::vector<dynamics::BodyMotion>& motions,
-                          const std::vector<int>& rows_in_use, const model::RowMemory* memory,
-                          double t);
+                          const std::vector<int>& rows_in_use,
+                          const std::vector<dynamics::SystemRow>& holding,
+                          const model::RowMemory* memory, double t);
 
  private:
   PushAnswers answers_to_;
