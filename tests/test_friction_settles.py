@@ -102,3 +102,40 @@ def test_balls_whose_sliding_turns_settle(sensors, tmp_path):
     # Some thirty and halved steps, if the tangent does not know that the torque turns with the sliding.
     assert summary["newton_iterations"]["max"] <= 12
     assert abs(out["balance"]).max() < 2e-3 * out["lost"][-1]
+
+
+SPACE_CRANK = """buckens: 1
+gravity: [0, 0, -9.81]
+materials: {steel: {E: 200 GPa, nu: 0.3, rho: 7870 kg/m^3, damping: {stiffness: 1e-6 s}}}
+bodies:
+  crank: {rigid: {mass: 0.36, com: [0.05, 0, 0], inertia: [1e-4, 2e-3, 2e-3]}, markers: {shaft: {position: [0, 0, 0]}, pin: {position: [0.1, 0, 0]}}}
+  rod: {beam: {to: ROD, elements: 8, section: {circle: {diameter: 8 mm}}, material: steel}, at: {position: [0.1, 0, 0]}}
+  slider: {rigid: {mass: 0.1, inertia: [1e-4, 1e-4, 1e-4]}, at: {position: SLIDER}}
+joints:
+  shaft: {revolute: {between: [ground, crank/shaft], axis: [0, 0, 1]}}
+  motor: {prescribed-rotation: {between: [ground, crank/shaft], axis: [0, 0, 1], angle: "150*t rad"}}
+  big_end: {BIG: {between: [crank/pin, rod/start]AXES}}
+  small_end: {spherical: {between: [rod/end, slider]}}
+  guide: {prismatic: {between: [{ground: SLIDER}, slider], axis: [1, 0, 0]}}
+loads:
+  f_shaft: {hinge-friction: {joint: shaft, static: MU, radius: 10 mm}}
+  f_big: {ball-friction: {joint: big_end, static: MU, radius: 8 mm}}
+  f_small: {ball-friction: {joint: small_end, static: MU, radius: 8 mm}}
+  f_guide: {slide-friction: {joint: guide, static: MU}}
+simulation: {duration: 0.1 s, step: 0.1 ms}
+output: {every: 1 ms, sensors: {work: {energy: work}, lost: {energy: dissipated}, balance: {energy: balance}}}
+"""
+IN_PLANE = ("[0.3, 0, 0]", "[0.4, 0, 0]")
+OUT_OF_PLANE = ("[0.2828427124746, 0, 0.1]", "[0.3828427124746, 0, 0.1]")
+
+
+@pytest.mark.parametrize("joint, axes", [("spherical", ""), ("universal", ", axis: [0, 0, 1], second-axis: [0, 1, 0]")])
+@pytest.mark.parametrize("coefficient", ["0.1", "0.4"])
+@pytest.mark.parametrize("rod, slider", [IN_PLANE, OUT_OF_PLANE], ids=["in plane", "out of plane"])
+def test_balls_that_turn_round_settle(summary, rod, slider, coefficient, joint, axes):
+    """Twice a turn the small end stands still against the slider. There its friction turns round within the tiny way of its elastic
+    slip, and the thin rod, free to turn about its own axis, is the stiffer to the bound the slower the ball slides."""
+    text = SPACE_CRANK.replace("ROD", rod).replace("SLIDER", slider).replace("MU", coefficient).replace("BIG", joint).replace("AXES", axes)
+    run = summary(text, "run")
+    assert run["step_control"]["failed"] == 0 and run["steps"] == 1000
+    assert run["newton_iterations"]["max"] <= 40

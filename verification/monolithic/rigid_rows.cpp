@@ -54,10 +54,11 @@ void MonolithicStepper::rigid_residual(Vector& r) const {
 }
 
 void MonolithicStepper::hold_reversed(double t) {
-  held_.release();
+  const double t_e = scheme_.evaluation_time(t);
   if (regimes_before_.size() == soft_.regimes.size()) {
-    held_.hold_reversed(regimes_before_, motions_evaluation_, scheme_.evaluation_time(t), around(),
-                        soft_);
+    held_.hold_reversed(regimes_before_, motions_evaluation_, t_e, around(), soft_);
+  } else {
+    held_.begin(motions_evaluation_, t_e, around());
   }
   regimes_before_ = soft_.regimes;
 }

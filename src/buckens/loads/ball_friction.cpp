@@ -47,7 +47,8 @@ BallFriction::Stand BallFriction::look(const Sight& sight) const {
     out.bound_per_load = data.static_coefficient / (data.static_coefficient * load + data.preload);
   }
   out.damping = 2.0 * std::sqrt(out.stiffness * data.inertia);
-  const Vector3d trial = -out.stiffness * out.strain - out.damping * out.rate;
+  out.trial = -out.stiffness * out.strain - out.damping * out.rate;
+  const Vector3d& trial = out.trial;
   const auto cut = [&](int first, int count) {
     const double size = trial.segment(first, count).norm();
     const double most = bound.at(load, out.rate.segment(first, count).norm());
@@ -63,9 +64,8 @@ BallFriction::Stand BallFriction::look(const Sight& sight) const {
       return;
     }
     for (int k = first; k < first + count; ++k) out.slides[static_cast<std::size_t>(k)] = true;
-    out.strain.segment(first, count) =
-        out.stiffness > 0.0 ? Vector3d(-out.torque / out.stiffness).segment(first, count).eval()
-                            : Vector3d(Vector3d::Zero()).segment(first, count).eval();
+    const double give = out.stiffness > 0.0 ? 1.0 / out.stiffness : 0.0;
+    out.strain.segment(first, count) = -give * out.torque.segment(first, count);
   };
   out.torque.setZero();
   if (arms_) {
@@ -111,11 +111,10 @@ void BallFriction::append_tangent(const Sight& sight, std::vector<SoftRow>& rows
     SoftRow row;
     row.J.segment<3>(0) = -s.along.col(k).transpose();
     row.J.segment<3>(6) = s.along.col(k).transpose();
-    const bool is_held = !(arms_ && k == 2);
     // A ball that slides answers across its direction of sliding, see mix_rows().
-    const bool answers = is_held && !(arms_ && s.slides[static_cast<std::size_t>(k)]);
+    const bool answers = is_held(k) && !(arms_ && s.slides[static_cast<std::size_t>(k)]);
     row.stiffness = answers ? s.stiffness : 0.0;
-    row.damping = (answers ? s.damping : 0.0) + (is_held ? s.viscous : 0.0);
+    row.damping = (answers ? s.damping : 0.0) + (is_held(k) ? s.viscous : 0.0);
     rows.push_back(row);
   }
 }
@@ -136,10 +135,31 @@ void BallFriction::append_slopes(const Sight& sight, int /*regime*/,
   for (int k = 0; k < 3; ++k) {
     // All of the torque but the viscous part grows with the bound, whether it sticks (nearly: its
     // damper with the root) or slides.
-    const bool is_held = !(arms_ && k == 2);
-    const double dry = is_held ? s.torque[k] + s.viscous * s.rate[k] : 0.0;
+    const double dry = is_held(k) ? s.torque[k] + s.viscous * s.rate[k] : 0.0;
     slopes.push_back({Vector3d::Zero(), dry * s.bound_per_load * pressed});
   }
+}
+
+std::array<bool, 3> BallFriction::reversed(const Rub& before, const Rub& now) const {
+  std::array<bool, 3> out{};
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    const double along = arms_ ? now.dry[row] * before.dry[row] : now.dry.dot(before.dry);
+    out[k] = now.slides[k] && before.slides[k] && along < 0.0;
+  }
+  return out;
+}
+
+BallFriction::Rub BallFriction::rub(const Sight& sight) const {
+  const Stand s = look(sight);
+  Rub out;
+  out.dry = s.torque + s.viscous * s.rate;
+  out.slides = s.slides;
+  out.excess = s.trial - out.dry;
+  out.stiffness = s.stiffness;
+  out.damping = s.damping + s.viscous;
+  if (arms_) out.dry[2] = out.excess[2] = 0.0;
+  return out;
 }
 
 double BallFriction::most_at_rest(const Sight& sight) const {

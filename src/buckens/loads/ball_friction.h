@@ -44,11 +44,24 @@ class BallFriction final : public ForceElement, public ReactionFollower {
   void start_states(const Sight& sight, double* states) const override;
   void find_states(const Sight& sight, double* states) const override;
 
+  /// Its torque as its soft rows have it, and what its bound keeps back of it.
+  struct Rub {
+    Eigen::Vector3d dry = Eigen::Vector3d::Zero();     ///< without the viscous part [N m]
+    Eigen::Vector3d excess = Eigen::Vector3d::Zero();  ///< that the bound keeps back [N m]
+    std::array<bool, 3> slides{};
+    double stiffness = 0, damping = 0;  ///< of all of it
+  };
+  Rub rub(const Sight& sight) const;
+  /// Which of its rows slide against the direction in which they slid at another instant of the
+  /// same step: all or none of a ball, each alone of a cross joint.
+  std::array<bool, 3> reversed(const Rub& before, const Rub& now) const;
+
  private:
   /// Torques along directions of the world, one after the other.
   struct Stand {
     Eigen::Matrix3d along;   // unit columns; the third is unused by arms
     Eigen::Vector3d torque;  // on the second marker, along the columns [N m]
+    Eigen::Vector3d trial;   // the same without bound and viscous part
     Eigen::Vector3d strain;  // after rest has followed [rad]
     Eigen::Vector3d rate;    // [rad/s]
     std::array<bool, 3> slides{};
@@ -58,6 +71,8 @@ class BallFriction final : public ForceElement, public ReactionFollower {
     double share = 1;           // of the trial torque of a ball that its bound admits
   };
   Stand look(const Sight& sight) const;
+  /// Whether a soft row is that of a bearing: a cross joint has two.
+  bool is_held(int row) const { return !(arms_ && row == 2); }
 
   DrivenBound bound_;
   std::optional<Arms> arms_;

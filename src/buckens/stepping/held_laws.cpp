@@ -8,7 +8,7 @@
 
 namespace buckens::stepping {
 
-HeldLaws::HeldLaws(const model::Model& model) : model_(model) {
+HeldLaws::HeldLaws(const model::Model& model) : model_(model), balls_(model) {
   std::size_t regime = 0;
   int soft = 0;
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
@@ -45,10 +45,13 @@ void HeldLaws::hold_reversed(const std::vector<int>& before,
     tangents.regimes[law.regime] = 0;
     held_.push_back(law);
   }
+  balls_.hold_reversed(motions, t, around, tangents);
 }
 
 bool HeldLaws::holds(int soft) const {
-  return std::any_of(held_.begin(), held_.end(), [&](const Law& law) { return law.soft == soft; });
+  return std::any_of(held_.begin(), held_.end(),
+                     [&](const Law& law) { return law.soft == soft; }) ||
+         balls_.holds(soft);
 }
 
 }  // namespace buckens::stepping

@@ -27,6 +27,10 @@ constexpr double kPivotDrop = 1e-3;
 // centre.
 constexpr double kDeadCentre = 1e-10;
 
+// An iteration that converges more slowly than this has the tangents of other directions of
+// sliding.
+constexpr double kTurns = 0.1;
+
 // Iterations between which rows move without ever settling, after which a place is looked for that
 // jumps to and fro.
 constexpr int kMostUnsettled = 100;
@@ -178,6 +182,7 @@ void SmallNewton::prepare(std::vector<BodyStep>& bodies, double t, bool begins_h
   ending_.begin(dynamics::rounding_length(model_, end_));
   steer(t);
   find_soft_rows(bodies, t, begins_here);
+  held_.begin(at_evaluation(), scheme_.evaluation_time(t), around_);
   follow_near();
   follow_released(t);
   bool is_closed = condense(t);
@@ -264,9 +269,10 @@ IterationEnd::Change SmallNewton::move(std::vector<BodyStep>& bodies, double t, 
 void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda, Change change,
                          StepReport& report) {
   Change before;
-  int since_moved = 0;    // iterations since a rigid row moved last
-  int since_settled = 0;  // the same since it had settled between
-  int flickers = 0;       // changes of regimes in a row that moved nothing
+  double size_before = 0;  // of the last change, whatever tangent it had
+  int since_moved = 0;     // iterations since a rigid row moved last
+  int since_settled = 0;   // the same since it had settled between
+  int flickers = 0;        // changes of regimes in a row that moved nothing
   for (;;) {
     ++since_moved;
     evaluate(bodies, t, lambda, slopes_are_old_ ? &slopes_of_joints_ : nullptr);
@@ -307,6 +313,10 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
     }
     if (!are_formed) find_residuals(bodies);
     if (renew_slopes()) before = {};
+    const bool is_slow = change.size > kTurns * size_before && size_before > 0.0;
+    // The torque of a ball turns with its direction of sliding, and so does its tangent.
+    if (are_formed && is_slow && look_at_balls(t).any) form_tangent_anew(bodies, t, report);
+    size_before = change.size;
     change = move(bodies, t, lambda, report);
   }
   watch_rows(t, report);

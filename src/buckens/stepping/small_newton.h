@@ -173,6 +173,8 @@ class SmallNewton {
   /// Forms the matrix of multipliers again if a force law has changed its regime since. @return
   /// false if so
   bool regimes_hold(std::vector<BodyStep>& bodies, double t, const StepReport& report);
+  void form_tangent_anew(std::vector<BodyStep>& bodies, double t, const StepReport& report);
+  TurningBalls::Sliding look_at_balls(double t) const;
   /// That matrix, from the soft rows as they are now. Position corrections weigh soft rows and
   /// belong to one matrix, that of the predicted motion, so that they do not depend on the way of
   /// the iteration. Where rigid rows have moved they begin anew. @return false if it is singular

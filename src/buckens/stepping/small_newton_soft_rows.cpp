@@ -230,7 +230,17 @@ bool SmallNewton::form_tangent(std::vector<BodyStep>& bodies, bool rigid_rows_mo
 }
 
 bool SmallNewton::regimes_hold(std::vector<BodyStep>& bodies, double t, const StepReport& report) {
-  if (forces_.regimes == soft_.regimes) return true;
+  const bool are_same = forces_.regimes == soft_.regimes && !look_at_balls(t).has_reversed;
+  if (!are_same) form_tangent_anew(bodies, t, report);
+  return are_same;
+}
+
+TurningBalls::Sliding SmallNewton::look_at_balls(double t) const {
+  return held_.look_at_balls(at_evaluation(), scheme_.evaluation_time(t), around_);
+}
+
+void SmallNewton::form_tangent_anew(std::vector<BodyStep>& bodies, double t,
+                                    const StepReport& report) {
   dynamics::evaluate_soft_rows(model_, at_evaluation(), scheme_.evaluation_time(t), around_,
                                soft_now_, &reaction_slopes_, &slopes_, &joints_);
   slopes_are_old_ = false;
@@ -246,7 +256,6 @@ bool SmallNewton::regimes_hold(std::vector<BodyStep>& bodies, double t, const St
   if (!form_tangent(bodies, soft_.is_closed != soft_now_.is_closed)) {
     fail(t, report, "laws of joint coordinates that act together differ too much in stiffness");
   }
-  return false;
 }
 
 }  // namespace buckens::stepping
