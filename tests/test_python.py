@@ -281,24 +281,3 @@ def test_progress_is_called_and_other_threads_run():
     thread.join()
     assert calls[-1] == (sim.end_time, 20.0, sim.num_steps)
     assert len(counted) > 10  # Python's lock was released
-
-
-def test_a_hundred_thousand_steps_do_not_grow():
-    tree = falling_rod(simulation={"duration": 200, "step": 1e-3}, output={"every": 200})
-    sim = buckens.Simulation(buckens.Model.from_dict(tree), record=False)
-    frame = sim.bodies["rod"].frame
-
-    def resident():
-        with open("/proc/self/statm") as file:
-            return int(file.read().split()[1]) * os.sysconf("SC_PAGESIZE")
-
-    for _ in range(10_000):
-        sim.step()
-        sim.bodies["rod"].frame.position[0]
-    before = resident()
-    for _ in range(100_000):
-        sim.step()
-        sim.bodies["rod"].frame.position[0]
-    # A leak of one Python object per step would be 5 MB.
-    assert resident() - before < 1 << 20
-    assert frame.position[1] != 0

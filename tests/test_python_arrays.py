@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Meshes and matrices that are given as arrays, and meshes that come back."""
 
+import importlib.util
 import itertools
 import pathlib
 import shutil
 import sys
 import time
+import types
 
 import numpy as np
 import pytest
@@ -170,6 +172,46 @@ def test_the_mesh_of_a_run(tmp_path):
     assert len(rows) == 8 * 9 and set(rows[::9]) == {8} and set(kinds) == {12}
     with pytest.raises(buckens.InputError, match="no body 'blok'; the run has block"):
         run.mesh("blok")
+
+
+@pytest.fixture
+def deformed(tmp_path):
+    """The mesh of a run at its end."""
+    buckens.Simulation(model({"file": block(), "material": "steel"}), out=tmp_path / "out").run()
+    return buckens.open(tmp_path / "out").mesh("block", t=2e-3)
+
+
+def test_a_mesh_for_meshio(deformed, tmp_path):
+    meshio = pytest.importorskip("meshio")
+    deformed.to_meshio().write(tmp_path / "block.vtu")
+    again = meshio.read(tmp_path / "block.vtu")
+    assert np.array_equal(again.points, deformed.points)
+    assert np.array_equal(again.cells_dict["hexahedron"], deformed.cells["hexahedron"])
+
+
+def test_a_mesh_for_pyvista(deformed, monkeypatch):
+    """Where PyVista is not installed: its class takes cells, kinds and points, and is one of VTK, which measures them here."""
+    vtk = pytest.importorskip("vtkmodules.vtkCommonDataModel")
+    quality = pytest.importorskip("vtkmodules.vtkFiltersVerdict")
+    support = pytest.importorskip("vtkmodules.util.numpy_support")
+    core = pytest.importorskip("vtkmodules.vtkCommonCore")
+
+    def grid(rows, kinds, points):
+        places, cells, made = core.vtkPoints(), vtk.vtkCellArray(), vtk.vtkUnstructuredGrid()
+        places.SetData(support.numpy_to_vtk(points, deep=True))
+        cells.ImportLegacyFormat(support.numpy_to_vtkIdTypeArray(np.asarray(rows, dtype=np.int64), deep=True))
+        made.SetPoints(places)
+        made.SetCells(support.numpy_to_vtk(kinds, deep=True), cells)
+        return made
+
+    if importlib.util.find_spec("pyvista") is None:
+        monkeypatch.setitem(sys.modules, "pyvista", types.SimpleNamespace(UnstructuredGrid=grid))
+    measure = quality.vtkCellSizeFilter()
+    measure.SetInputData(deformed.to_pyvista())
+    measure.Update()
+    volumes = support.vtk_to_numpy(measure.GetOutput().GetCellData().GetArray("Volume"))
+    # Micrometres of sag over 200 mm.
+    assert len(volumes) == 8 and volumes == pytest.approx(np.prod(SIZE) / 8, rel=1e-3)
 
 
 def test_the_mesh_of_a_beam(tmp_path):

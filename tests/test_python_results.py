@@ -120,6 +120,15 @@ def test_tables_of_pandas_hold_the_sensors(run):
     assert np.array_equal(table["slider.x"], run["slider.x"]) and table.index.name == "t"
 
 
+def test_a_dataset_of_xarray_holds_the_sensors_with_units(run):
+    pytest.importorskip("xarray")
+    data = run.to_xarray()
+    assert set(data.data_vars) == set(run.sensors) and data["slider"].dims == ("t", "slider_0")
+    assert np.array_equal(data["slider"].values, run["slider"]) and data["slider"].attrs["units"] == "m"
+    assert np.array_equal(data["t"].values, run.time) and data["t"].attrs["units"] == "s"
+    assert data["balance"].dims == ("t",) and data["balance"].attrs["units"] == "J"
+
+
 def test_a_run_is_shown_in_a_notebook(run):
     page = run._repr_html_()
     assert page.startswith("<iframe srcdoc=") and "Flexible slider-crank" in page

@@ -19,7 +19,7 @@ buckens_packages=(
   clang-format-14 libclang-rt-14-dev
   python3 python3-pytest python3-numpy python3-h5py python3-vtk9
   python3-dev python3-venv pybind11-dev mypy
-  python3-matplotlib python3-pandas python3-scipy python3-distributed python3-nbclient python3-ipykernel python3-yaml python3-jsonschema
+  python3-matplotlib python3-pandas python3-xarray python3-meshio python3-scipy python3-distributed python3-nbclient python3-ipykernel python3-yaml python3-jsonschema
 )
 # For large bodies: iterative solves, runs over several processes (-DBUCKENS_MPI=ON).
 buckens_mpi_packages=(libpetsc-real-dev openmpi-bin)
