@@ -154,6 +154,8 @@ class Results:
         ----------
         quantity
             Such as "von_mises", "stress" or "displacement"; the model file's "von-mises" is the same.
+        body
+            Name of the body.
         t
             Time [s]; the nearest recorded field is returned. None: the last one. A time outside the records is refused.
         on
@@ -178,6 +180,8 @@ class Results:
 
         Parameters
         ----------
+        body
+            Name of the body.
         t
             Time [s]: the mesh is deformed as in the nearest record, in world axes. A time outside the records is
             refused. None: the mesh is undeformed, in body axes.
@@ -215,7 +219,14 @@ class Results:
 
     # ---- to other packages
     def to_pandas(self, *names: str) -> Any:
-        """Returns a pandas.DataFrame of sensors over time; without names, of all sensors."""
+        """Returns sensors over time as a pandas.DataFrame.
+
+        Parameters
+        ----------
+        *names
+            Such as "tip" or "energies/total"; by default all sensors. The index is the time [s], columns of vectors are
+            "tip.x", "tip.y", "tip.z".
+        """
         pandas = package("pandas", "to_pandas")
 
         columns = {}
@@ -238,7 +249,15 @@ class Results:
         return out
 
     def plot(self, *names: str, axes: Any = None) -> Any:
-        """Plots sensors over time with matplotlib and returns the axes."""
+        """Plots sensors over time with matplotlib and returns the axes.
+
+        Parameters
+        ----------
+        *names
+            As for :meth:`to_pandas`.
+        axes
+            Axes of matplotlib to draw into; by default those of a new figure.
+        """
         if axes is None:
             axes = package("matplotlib.pyplot", "plot").subplots()[1]
         time = np.asarray(self.time)
@@ -278,6 +297,11 @@ class Results:
 
 def open(directory: PathLike) -> Results:  # noqa: A001 (the name says what it does)
     """Opens a run directory for reading.
+
+    Parameters
+    ----------
+    directory
+        The ``out`` of a :class:`buckens.Simulation`, of :func:`buckens.run` or of the program; the run may be in progress.
 
     Raises
     ------

@@ -33,7 +33,13 @@ class Distribution:
         self.kind, self.parameters, self.unit = kind, tuple(float(value) for value in parameters), unit
 
     def at(self, shares: Any) -> Array:
-        """Returns the quantiles for given probabilities (0 to 1), in the unit as written."""
+        """Returns quantiles, in the unit as written.
+
+        Parameters
+        ----------
+        shares : (n,)
+            Probabilities, 0 to 1.
+        """
         from scipy import stats
 
         # Probabilities of exactly 0 or 1, which designs may contain, would give infinite values.
@@ -49,7 +55,13 @@ class Distribution:
         return np.asarray(stats.triang.ppf(p, (peak - low) / (high - low), low, high - low))
 
     def texts(self, values: Any) -> List[str]:
-        """Returns values as in a model file, with all digits and the unit."""
+        """Returns values as in a model file, with all digits and the unit.
+
+        Parameters
+        ----------
+        values : (n,)
+            In the unit as written.
+        """
         return [f"{float(value)!r} {self.unit}".rstrip() for value in values]
 
     def __repr__(self) -> str:
@@ -58,7 +70,13 @@ class Distribution:
 
 
 def uniform(low: Quantity, high: Quantity) -> Distribution:
-    """Returns the uniform distribution from `low` to `high`: ``uniform("9 mm", "11 mm")``."""
+    """Returns a uniform distribution: ``uniform("9 mm", "11 mm")``.
+
+    Parameters
+    ----------
+    low, high
+        Its ends: numbers in SI units, or with a unit.
+    """
     (a, b), unit = _in_one_unit(low, high)
     if not a < b:
         raise InputError(f"uniform: expected low < high, found {low!r} and {high!r}")
@@ -66,7 +84,13 @@ def uniform(low: Quantity, high: Quantity) -> Distribution:
 
 
 def normal(mean: Quantity, deviation: Quantity) -> Distribution:
-    """Returns the normal distribution with a mean and a standard deviation."""
+    """Returns a normal distribution.
+
+    Parameters
+    ----------
+    mean, deviation
+        Mean and standard deviation: numbers in SI units, or with a unit.
+    """
     (a, b), unit = _in_one_unit(mean, deviation)
     if not b > 0:
         raise InputError(f"normal: expected a standard deviation above 0, found {deviation!r}")
@@ -74,7 +98,15 @@ def normal(mean: Quantity, deviation: Quantity) -> Distribution:
 
 
 def lognormal(median: Quantity, deviation: Quantity) -> Distribution:
-    """Returns the lognormal distribution; `deviation` is the standard deviation of the logarithm (0.1 is about 10 %)."""
+    """Returns a lognormal distribution.
+
+    Parameters
+    ----------
+    median
+        A number in SI units, or with a unit.
+    deviation
+        Standard deviation of the logarithm; 0.1 is about 10 %.
+    """
     (a,), unit = _in_one_unit(median)
     (b,), unit_of_b = _in_one_unit(deviation)
     b *= _core.quantity(f"1 {unit_of_b}")[2] if unit_of_b == "%" else 1.0
@@ -85,7 +117,13 @@ def lognormal(median: Quantity, deviation: Quantity) -> Distribution:
 
 
 def triangular(low: Quantity, peak: Quantity, high: Quantity) -> Distribution:
-    """Returns the triangular distribution from `low` to `high` with its mode at `peak`."""
+    """Returns a triangular distribution.
+
+    Parameters
+    ----------
+    low, peak, high
+        Its ends and its mode between them: numbers in SI units, or with a unit.
+    """
     (a, b, c), unit = _in_one_unit(low, peak, high)
     if not (a <= b <= c and a < c):
         raise InputError(f"triangular: expected low <= peak <= high, found {low!r}, {peak!r} and {high!r}")

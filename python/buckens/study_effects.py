@@ -23,6 +23,8 @@ def results(sweep: SweepLike, column: str) -> Array:
 
     Parameters
     ----------
+    sweep
+        What :func:`buckens.sweep` has returned, or the directory or table that it has written.
     column
         Such as "tip.y [m] max"; the unit may be omitted: "tip.y max".
 
@@ -69,7 +71,15 @@ class Statistics(NamedTuple):
 
 
 def statistics(values: Any, quantiles: Sequence[float] = (0.05, 0.25, 0.5, 0.75, 0.95)) -> Statistics:
-    """Returns mean, standard deviation and quantiles, without failed variants (NaN)."""
+    """Returns mean, standard deviation and quantiles.
+
+    Parameters
+    ----------
+    values : (n,)
+        A result per variant, as from :func:`results`; failed variants (NaN) are left out.
+    quantiles
+        Between 0 and 1.
+    """
     good = _good(np.asarray(values, dtype=np.float64))
     deviation = float(np.std(good, ddof=1)) if len(good) > 1 else 0.0
     return Statistics(len(good), float(np.mean(good)), deviation, deviation / float(np.sqrt(len(good))),
@@ -78,6 +88,15 @@ def statistics(values: Any, quantiles: Sequence[float] = (0.05, 0.25, 0.5, 0.75,
 
 def main_effects(samples: Samples, values: Any, bins: int = 5) -> Dict[str, Array]:
     """Returns how the mean of a result depends on each quantity.
+
+    Parameters
+    ----------
+    samples
+        The design that was run.
+    values : (n,)
+        A result per row of it, as from :func:`results`.
+    bins
+        Maximum number of intervals of each quantity.
 
     Returns
     -------
@@ -124,6 +143,15 @@ def sobol_indices(samples: Samples, values: Any, resamples: int = 200, seed: int
 
     First-order indices use the estimator of Saltelli et al. (2010), total indices that of Jansen (1999). Failed variants
     are omitted together with their partner rows.
+
+    Parameters
+    ----------
+    samples
+        A design of :func:`sensitivity`.
+    values : (n,)
+        A result per row of it, as from :func:`results`.
+    resamples, seed
+        Number of samples for the confidence intervals, and seed of their random numbers.
     """
     if samples.kind != "sensitivity":
         raise InputError(f"sobol_indices: the samples are of the kind {samples.kind!r}; make them by buckens.study.sensitivity")
@@ -168,7 +196,17 @@ def _good(values: Array) -> Array:
 
 def picture(samples: Samples, values: Any, label: str = "result", file: Optional[PathLike] = None) -> Any:
     """Draws a matplotlib figure: a histogram with mean and quantiles, the result against each quantity with its main
-    effect, and Sobol indices, if the design allows them."""
+    effect, and Sobol indices, if the design allows them.
+
+    Parameters
+    ----------
+    samples, values
+        As for :func:`main_effects`.
+    label
+        What the result is called.
+    file
+        Saves the figure, by its ending as .png, .svg or .pdf.
+    """
     results_ = _rows(samples, values)
     told = statistics(results_)
     has_indices = samples.kind == "sensitivity"

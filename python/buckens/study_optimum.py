@@ -35,6 +35,8 @@ def minimize(model: ModelLike, ranges: Mapping[str, Any], result: "str | Callabl
 
     Parameters
     ----------
+    model, executor, set
+        As for :func:`buckens.sweep`.
     ranges
         Ranges by path: ``{"parameters.L": "280 mm to 320 mm"}``.
     result
@@ -45,6 +47,8 @@ def minimize(model: ModelLike, ranges: Mapping[str, Any], result: "str | Callabl
     population, generations, tolerance
         Variants per generation, at least five per quantity; maximum number of generations; relative spread of results at
         which the iteration ends.
+    seed
+        Of the random numbers.
     """
     from scipy.optimize import differential_evolution
 

@@ -109,6 +109,11 @@ def clock(seconds: float) -> str:
 def status(out: PathLike) -> Progress:
     """Returns the progress of a study that runs in another process or was stopped.
 
+    Parameters
+    ----------
+    out
+        Directory of the study.
+
     Raises
     ------
     InputError

@@ -54,7 +54,15 @@ class Samples:
 
 
 def grid(quantities: Mapping[str, Any], count: int = 5) -> Samples:
-    """Returns all combinations of `count` values of each quantity, at the medians of intervals of equal probability."""
+    """Returns all combinations of some values of each quantity.
+
+    Parameters
+    ----------
+    quantities
+        Distributions by path: ``{"parameters.L": "300 mm +- 1 mm"}``.
+    count
+        Number of values of each quantity, at the medians of intervals of equal probability.
+    """
     distributions = distributions_of(dict(quantities))
     _check_count(count, 1, "count")
     if count ** len(distributions) > 100_000:
@@ -66,8 +74,17 @@ def grid(quantities: Mapping[str, Any], count: int = 5) -> Samples:
 
 
 def latin_hypercube(quantities: Mapping[str, Any], count: int, seed: int = 0) -> Samples:
-    """Returns a Latin hypercube: `count` rows, with one value of each quantity in each of `count` intervals of equal
-    probability."""
+    """Returns a Latin hypercube.
+
+    Parameters
+    ----------
+    quantities
+        As for :func:`grid`.
+    count
+        Number of rows, with one value of each quantity in each of as many intervals of equal probability.
+    seed
+        Of the random numbers.
+    """
     from scipy.stats import qmc
 
     distributions = distributions_of(dict(quantities))
@@ -76,8 +93,15 @@ def latin_hypercube(quantities: Mapping[str, Any], count: int, seed: int = 0) ->
 
 
 def sobol(quantities: Mapping[str, Any], count: int, seed: int = 0) -> Samples:
-    """Returns the first `count` points of a scrambled Sobol sequence, which fill the space more evenly than random points.
-    A power of two is best."""
+    """Returns the first points of a scrambled Sobol sequence, which fill the space more evenly than random points.
+
+    Parameters
+    ----------
+    quantities, seed
+        As for :func:`latin_hypercube`.
+    count
+        Number of rows; a power of two is best.
+    """
     distributions = distributions_of(dict(quantities))
     _check_count(count, 1, "count")
     return _from_shares(distributions, _sobol_points(len(distributions), count, seed), "sobol")
@@ -88,6 +112,11 @@ def sensitivity(quantities: Mapping[str, Any], count: int, seed: int = 0) -> Sam
 
     Saltelli's design: two independent samples A and B of `count` rows (a power of two), then for each quantity A with the
     column of that quantity taken from B. In total count (quantities + 2) rows.
+
+    Parameters
+    ----------
+    quantities, count, seed
+        As for :func:`sobol`.
     """
     distributions = distributions_of(dict(quantities))
     _check_count(count, 2, "count")

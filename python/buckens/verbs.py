@@ -30,6 +30,10 @@ def check(model: ModelLike, set: Overrides = None, *, view: bool = False,  # noq
 
     Parameters
     ----------
+    model
+        A :class:`buckens.Model`, a dictionary with the keys of a model file, or the path of one.
+    set
+        Values to replace, as for :func:`buckens.load`.
     view
         Also writes a page of the assembled model to the current directory: ``crank.html`` for ``crank.yaml``,
         ``model.html`` for a :class:`buckens.Model`.
@@ -51,8 +55,12 @@ def modes(model: ModelLike, body: Optional[str] = None, system: bool = False,
 
     Parameters
     ----------
+    model, set
+        As for :func:`buckens.check`.
     body
         Analyses only this free body.
+    system
+        Analyses the assembled system instead of free bodies.
     count
         Number of modes, 10 by default.
     about
@@ -77,7 +85,20 @@ def modes(model: ModelLike, body: Optional[str] = None, system: bool = False,
 
 
 def static(model: ModelLike, out: PathLike, set: Overrides = None) -> Dict[str, Any]:  # noqa: A002
-    """Computes equilibria over a load factor and writes a run directory, see :func:`buckens.open`."""
+    """Computes equilibria over a load factor.
+
+    Parameters
+    ----------
+    model, set
+        As for :func:`buckens.check`; the model needs a ``static`` section.
+    out
+        Directory for results, see :func:`buckens.open`.
+
+    Returns
+    -------
+    dict
+        The summary, as in summary.json of the directory.
+    """
     with file_of(model) as path:
         return call("static", [path, *options_of(out=out), *changes_of(set)])
 
@@ -92,6 +113,10 @@ def sweep(model: ModelLike, table: TableLike, out: PathLike, together: Optional[
 
     Parameters
     ----------
+    model, set
+        As for :func:`buckens.check`.
+    out
+        Directory for the table and, without an executor, the runs.
     table
         A CSV file with a row per variant, a pandas.DataFrame, or values by path, all combinations of which
         are run: ``{"bodies.rod.beam.elements": [4, 8, 16]}``.
@@ -150,6 +175,11 @@ def _shard(shard: Tuple[int, int]) -> str:
 def merge_sweep(out: PathLike) -> Dict[str, Any]:
     """Joins the shards of a sweep into ``out``/sweep.csv and sweep.h5.
 
+    Parameters
+    ----------
+    out
+        Directory of the sweep.
+
     Returns
     -------
     dict
@@ -168,6 +198,11 @@ def sweep_status(out: PathLike) -> Dict[str, Any]:
 
     For a sweep with an executor use :func:`buckens.study.status`.
 
+    Parameters
+    ----------
+    out
+        Directory of the sweep.
+
     Returns
     -------
     dict
@@ -179,6 +214,20 @@ def sweep_status(out: PathLike) -> Dict[str, Any]:
 def compare(first: PathLike, second: PathLike, tolerance: Optional[float] = None,
             sensors: bool = False) -> Dict[str, Any]:
     """Compares two runs.
+
+    Parameters
+    ----------
+    first, second
+        Directories of the runs.
+    tolerance
+        Largest difference that is accepted, relative to the largest value of a quantity; None accepts any.
+    sensors
+        Compares sensors only.
+
+    Returns
+    -------
+    dict
+        ``["largest_relative_difference"]``, and the differences of each quantity.
 
     Raises
     ------
@@ -199,7 +248,24 @@ def _mesh_options(length_unit: Optional[str], mass_unit: Optional[str], only: Se
 def mesh_info(file: PathLike, length_unit: Optional[str] = None, mass_unit: Optional[str] = None,
               only: Sequence[str] = (), skip: Sequence[str] = (), size: Optional[Quantity] = None,
               order: Optional[int] = None, solid: Optional[str] = None) -> Dict[str, Any]:
-    """Returns the contents of a mesh file, in SI units."""
+    """Returns the contents of a mesh file, in SI units.
+
+    Parameters
+    ----------
+    file
+        A mesh of Gmsh, Abaqus, CalculiX or Nastran, a universal file or a STEP file.
+    length_unit, mass_unit
+        Units of the file, such as "mm" and "t"; by default metres, and kilograms, or tonnes with millimetres.
+    only, skip
+        Sets, groups or properties to take alone; keywords, cards and element types of decks to leave out.
+    size, order, solid
+        Of STEP files: element size in metres or such as "3 mm", order 1 or 2 of the elements, and the solid to mesh.
+
+    Returns
+    -------
+    dict
+        Numbers of ``nodes`` and elements, ``volume`` [m³] and sets by name.
+    """
     return call("mesh-info", [os.fspath(file), *_mesh_options(length_unit, mass_unit, only, skip,
                                                               size, order, solid)])
 
@@ -208,7 +274,24 @@ def convert(file: PathLike, out: PathLike, length_unit: Optional[str] = None,
             mass_unit: Optional[str] = None, only: Sequence[str] = (), skip: Sequence[str] = (),
             size: Optional[Quantity] = None, order: Optional[int] = None, solid: Optional[str] = None,
             msh_version: Optional[str] = None, binary: bool = False) -> Dict[str, Any]:
-    """Converts a mesh to .msh with a model file, or to .vtu."""
+    """Converts a mesh to .msh with a model file, or to .vtu.
+
+    Parameters
+    ----------
+    file, length_unit, mass_unit, only, skip, size, order, solid
+        As for :func:`buckens.mesh_info`.
+    out
+        File to write, by its ending .msh or .vtu.
+    msh_version
+        "4.1" or "2.2".
+    binary
+        Writes a binary .msh.
+
+    Returns
+    -------
+    dict
+        As for :func:`buckens.mesh_info`.
+    """
     return call("convert", [os.fspath(file), os.fspath(out),
                             *_mesh_options(length_unit, mass_unit, only, skip, size, order, solid),
                             *options_of(msh_version=msh_version, binary=binary)])
@@ -247,7 +330,7 @@ def view_live(run: PathLike, second: Optional[PathLike] = None, *, frames: Optio
 
     Parameters
     ----------
-    second, frames, fields, max_size
+    run, second, frames, fields, max_size
         As for :func:`buckens.view`.
     open
         Opens the page in the browser.
