@@ -65,6 +65,14 @@ def test_results_are_arrays_with_units(run):
     assert run.energy_account["brought_in"] and run.energy_account == run.summary["energy_account"]
 
 
+def test_curves_reach_other_processes_with_their_units(run):
+    for one in (run["slider"], run["slider.x"], run["slider"][3:]):
+        again = pickle.loads(pickle.dumps(one))
+        assert np.array_equal(again, one) and type(again) is buckens.Curve
+        assert (again.name, again.unit, again.components) == (one.name, one.unit, one.components)
+        assert copy.deepcopy(one).unit == one.unit == "m"
+
+
 def test_a_run_in_progress_shows_all_its_records(tmp_path):
     """Records reach the file within a second; a reader in the same process does not wait for them."""
     sim = buckens.Simulation(TREE, out=tmp_path / "out")

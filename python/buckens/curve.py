@@ -36,6 +36,10 @@ class Curve(np.ndarray[Any, Any]):
         self.unit = getattr(origin, "unit", "1")
         self.components = getattr(origin, "components", ())
 
+    def __reduce__(self) -> Any:
+        """For pickle and other processes, with name and unit."""
+        return Curve, (np.asarray(self), self.name, self.unit, self.components)
+
     def __array_wrap__(self, out: Any, context: Any = None) -> Any:
         """Returns plain arrays for results of calculations, as their unit is not known."""
         return out[()] if out.ndim == 0 else np.asarray(out)
