@@ -176,9 +176,4 @@ double JointCoordinate::bias(const MarkerMotion& F, const MarkerMotion& M,
   return axis_bias.dot(M.p - F.p) + 2.0 * axis_rate.dot(M.v - F.v) + axis.dot(bias_M.a - bias_F.a);
 }
 
-CountedValue JointCoordinate::follow(const CountedValue& expected, double fraction) const {
-  if (is_angle()) return follow_turns(expected, fraction);
-  return {expected.turns, fraction, expected.rate, expected.t};
-}
-
 }  // namespace buckens::joints

@@ -71,7 +71,10 @@ class JointCoordinate {
     return {before.turns, before.fraction, before.rate, t};
   }
   /// The counted value closest to the one expected.
-  CountedValue follow(const CountedValue& expected, double fraction) const;
+  CountedValue follow(const CountedValue& expected, double fraction) const {
+    if (is_angle_) return spatial::follow_turns(expected, fraction);
+    return {expected.turns, fraction, expected.rate, expected.t};
+  }
 
  private:
   /// The current axis.

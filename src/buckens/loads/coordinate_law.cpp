@@ -131,7 +131,7 @@ UnlimitedForce CoordinateLaw::unlimited(const Sight& sight) const {
 }
 
 void CoordinateLaw::find_states(const Sight& sight, double* states) const {
-  if (is_yielding()) states[0] = project(force(sight), sight.coordinate.rate).strain;
+  if (is_yielding()) states[0] = answer(sight).strain;
 }
 
 ProjectedForce CoordinateSpring::force(const Sight& sight) const {

@@ -65,7 +65,7 @@ class CoordinateLaw : public ForceElement {
   void find_states(const Sight& sight, double* states) const final;
   UnlimitedForce unlimited(const Sight& sight) const;
   /// What respond() says, at less cost.
-  CoordinateResponse answer(const Sight& sight) const;
+  virtual CoordinateResponse answer(const Sight& sight) const;
 
  protected:
   virtual ProjectedForce force(const Sight& sight) const = 0;

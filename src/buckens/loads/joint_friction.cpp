@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "buckens/loads/end_of_set.h"
+
 namespace buckens::loads {
 
 using Eigen::Vector3d;
@@ -106,7 +108,7 @@ double FrictionBound::coefficient(double rate) const {
 ProjectedForce JointFriction::force(const Sight& sight) const {
   ProjectedForce out;
   out.is_yielding = true;
-  out.strain = (sight.states != nullptr ? sight.states[0] : 0.0) + sight.coordinate.change;
+  out.strain = strain(sight);
   bound_.ask(sight, [&](const FrictionBound& bound) {
     const FrictionData& data = bound.data();
     const double load = bound.load(sight);
@@ -118,6 +120,31 @@ ProjectedForce JointFriction::force(const Sight& sight) const {
     out.outer_damping = data.viscous;
   });
   return out;
+}
+
+bool JointFriction::slide_on(const FrictionBound& bound, const Sight& sight,
+                             CoordinateResponse& out) const {
+  const FrictionData& data = bound.data();
+  const double x = strain(sight), rate = sight.coordinate.rate;
+  const double load = bound.load(sight);
+  const double held = data.static_coefficient * load + data.preload;
+  const double most = bound.at(load, rate);
+  if (!(x * rate > 0.0) || !(std::abs(x) * held > most * data.slip)) return false;
+  const double kept = most == held ? data.slip : data.slip * (most / held);
+  out.force = -std::copysign(most, rate) - data.viscous * rate;
+  out.strain = std::copysign(kept, rate);
+  out.stored_energy = 0.5 * most * kept;
+  out.active_power = out.force * rate;
+  out.dissipation = -out.active_power;
+  out.regime = EndOfSet::regime(-rate, 0.0);
+  return true;
+}
+
+CoordinateResponse JointFriction::answer(const Sight& sight) const {
+  CoordinateResponse out;
+  const bool slides_on =
+      bound_.ask(sight, [&](const FrictionBound& bound) { return slide_on(bound, sight, out); });
+  return slides_on ? out : CoordinateLaw::answer(sight);
 }
 
 void JointFriction::append_slopes(const Sight& sight, int regime,

@@ -102,6 +102,7 @@ class JointFriction final : public CoordinateLaw, public ReactionFollower {
   bool uses_signals() const override { return bound_.uses_signals(); }
   bool is_constant() const override { return bound_.is_constant(); }
 
+  CoordinateResponse answer(const Sight& sight) const override;
   /// A joint that covers its slip within a millisecond slides from the start.
   void start_states(const Sight& sight, double* states) const override;
 
@@ -116,6 +117,13 @@ class JointFriction final : public CoordinateLaw, public ReactionFollower {
  private:
   ProjectedForce force(const Sight& sight) const override;
   bool is_yielding() const override { return true; }
+  /// The answer of a joint that goes on sliding, whose spring and damper both push beyond the
+  /// bound: neither the stiffness nor the damping need be known. @return whether it does
+  bool slide_on(const FrictionBound& bound, const Sight& sight, CoordinateResponse& out) const;
+  /// How far the spring is strained.
+  static double strain(const Sight& sight) {
+    return (sight.states != nullptr ? sight.states[0] : 0.0) + sight.coordinate.change;
+  }
 
   DrivenBound bound_;
 };

@@ -11,21 +11,9 @@ namespace {
 constexpr double kMostTurnsOfStep = 1e6;
 }  // namespace
 
-double CountedValue::value() const { return kTurn * turns + fraction; }
-
-double difference(const CountedValue& from, const CountedValue& to) {
-  return kTurn * (to.turns - from.turns) + (to.fraction - from.fraction);
-}
-
-CountedValue follow_turns(const CountedValue& expected, double fraction) {
-  CountedValue out = expected;
-  out.fraction = fraction;
-  const double jump = expected.fraction - fraction;
-  // Few leave the turn where they were; beyond what is counted the motion has diverged.
-  if (std::abs(jump) > 0.5 * kTurn && std::abs(jump) < kMostTurnsOfStep * kTurn) {
-    out.turns += static_cast<int>(std::lround(jump / kTurn));
-  }
-  return out;
+int turns_of(double jump) {
+  if (!(std::abs(jump) < kMostTurnsOfStep * kTurn)) return 0;
+  return static_cast<int>(std::lround(jump / kTurn));
 }
 
 void require_countable(const CountedValue& before, const CountedValue& after, double turn,

@@ -17,7 +17,7 @@ struct CountedValue {
   double t = 0;         ///< the instant to which it belongs [s]
 
   /// The whole angle [rad] or displacement [m].
-  double value() const;
+  double value() const { return kTurn * turns + fraction; }
 };
 
 /// Where a coordinate would be at t if it went on at its rate: its fraction may leave the turn.
@@ -25,9 +25,18 @@ inline CountedValue expected_at(const CountedValue& before, double t) {
   return {before.turns, before.fraction + before.rate * (t - before.t), before.rate, t};
 }
 
+/// How many turns an angle has left the one where it was. Beyond what is counted the motion has
+/// diverged, and none.
+/// @param jump of its fraction from where it was expected to where it is [rad]
+int turns_of(double jump);
+
 /// The counted angle that is nearest to the one expected, whose rate it keeps.
 /// @param fraction within the turn, −π … π [rad]
-CountedValue follow_turns(const CountedValue& expected, double fraction);
+inline CountedValue follow_turns(const CountedValue& expected, double fraction) {
+  const double jump = expected.fraction - fraction;
+  const int turns = std::abs(jump) > 0.5 * kTurn ? turns_of(jump) : 0;  // few leave their turn
+  return {expected.turns + turns, fraction, expected.rate, expected.t};
+}
 
 /// Whether turns can be counted from one instant to another: the rate changes by so little that one
 /// turn more or less cannot be meant.
@@ -46,6 +55,8 @@ inline double way_turned(double from, double to, double expected) {
 }
 
 /// Difference between two values of a coordinate, with all digits.
-double difference(const CountedValue& from, const CountedValue& to);
+inline double difference(const CountedValue& from, const CountedValue& to) {
+  return kTurn * (to.turns - from.turns) + (to.fraction - from.fraction);
+}
 
 }  // namespace buckens::spatial

@@ -141,6 +141,33 @@ TEST(JointFriction, SticksElasticallyAndSlidesByItsBound) {
   EXPECT_NEAR(friction.respond(sight).along_coordinate, -0.5 * bound, 1e-12);
 }
 
+TEST(JointFriction, AnswersAtLessCostWhereItSlidesOn) {
+  FrictionData data = pin();
+  data.dynamic_coefficient = 0.2;
+  data.stribeck_rate = 0.4;
+  data.viscous = 0.1;
+  data.inertia = 0.5;
+  for (const double static_coefficient : {0.2, 0.3}) {
+    data.static_coefficient = static_coefficient;
+    const JointFriction friction(data, Vector3d::UnitX());
+    Sled sled;
+    for (const double change : {-3e-3, -1.1e-3, -4e-4, 0.0, 9e-4, 1.3e-3, 0.2}) {
+      for (const double rate : {-5.0, -0.2, 0.0, 0.1, 3.0}) {
+        auto sight = sled.at(0, rate, change);
+        sight.reaction.force = Vector3d(0, 6, 8);
+        const CoordinateResponse general = friction.CoordinateLaw::answer(sight);
+        const CoordinateResponse response = friction.answer(sight);
+        EXPECT_DOUBLE_EQ(response.force, general.force) << change << " " << rate;
+        EXPECT_DOUBLE_EQ(response.strain, general.strain) << change << " " << rate;
+        EXPECT_DOUBLE_EQ(response.stored_energy, general.stored_energy);
+        EXPECT_DOUBLE_EQ(response.active_power, general.active_power);
+        EXPECT_DOUBLE_EQ(response.dissipation, general.dissipation);
+        EXPECT_EQ(response.regime, general.regime) << change << " " << rate;
+      }
+    }
+  }
+}
+
 TEST(JointFriction, WithoutItsSetItWouldStick) {
   FrictionData data = pin();
   data.inertia = 0.5;
