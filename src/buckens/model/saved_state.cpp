@@ -201,6 +201,7 @@ void visit_saved(const base::SaveVisit& visit, const Model& model, State& state)
   visit.vector("lambda", state.lambda, model.num_constraint_rows());
   visit.number("lambda_time", state.lambda_time);
   visit.number("last_step", state.last_step);
+  visit.flag("had_rounds", state.had_rounds);
   visit.count("history", state.history, 0, 3);
   visit_past(visit.inside("before"), model, state.before);
   visit_past(visit.inside("earlier"), model, state.earlier);

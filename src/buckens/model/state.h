@@ -68,9 +68,10 @@ struct PastStep {
 struct State {
   double t = 0;  ///< [s]
   std::vector<BodyState> bodies;
-  linalg::Vector lambda;   ///< joint multipliers [N, N m]
-  double lambda_time = 0;  ///< instant to which λ refers [s]
-  double last_step = 0;    ///< length of the step that led here [s]
+  linalg::Vector lambda;    ///< joint multipliers [N, N m]
+  double lambda_time = 0;   ///< instant to which λ refers [s]
+  double last_step = 0;     ///< length of the step that led here [s]
+  bool had_rounds = false;  ///< whether its inertial coupling took more than one round
   int history = 0;  ///< number of valid coupling entries and of steps without a jump: 0 … 3
   PastStep before, earlier;  ///< of the two previous steps
   LoadInputs inputs;         ///< in effect from here on

@@ -11,6 +11,10 @@ namespace {
 // Convergence is linear with the frozen matrix of the step: what the next iteration would change is
 // known from the last two. It has to be this much smaller than what the tolerance admits.
 constexpr double kForeseen = 0.01;
+// What may be left open where another round follows, in tolerances, and as a share of what the
+// coupling load may change. A round moves bodies by more than that, or hardly less.
+constexpr double kLeftForNext = 1e3;
+constexpr double kLeftOfLoad = 0.1;
 // Of a change that takes back what went astray, so much stays by rounding.
 constexpr double kLeftOfChange = 1e-15;
 // What rounding of positions leaves open, relative to the model's length, or to the distance from
@@ -24,6 +28,15 @@ constexpr double kStalledFarAway = 1e-14;
 constexpr double kSlow = 0.3;  // no foresight where the iteration converges slower than this
 
 }  // namespace
+
+IterationEnd::IterationEnd(const StepSettings& settings, double length, double lever)
+    : tolerance_(settings.newton_tolerance),
+      near_(std::min(kLeftForNext * settings.newton_tolerance,
+                     kLeftOfLoad * settings.outer_tolerance)),
+      keeps_rounding_(!settings.iterate_coupling),
+      length_(length),
+      leverage_(length / lever),
+      rounding_length_(length) {}
 
 void IterationEnd::begin(double rounding_length) {
   rounding_length_ = rounding_length;
@@ -40,6 +53,11 @@ bool IterationEnd::is_settled(const Change& change, const Change& before, double
   double rounding = kStalled * length_ + kStalledFarAway * leverage_ * rounding_length_;
   if (pivots > 0.0 && pivots < kWeaklyHeld) rounding /= std::sqrt(pivots);
   return before.size > 0.0 && change.size > kSlow * before.size && change.size <= rounding;
+}
+
+bool IterationEnd::is_near(const Change& change, double before) const {
+  if (!(change.size < kSlow * before)) return false;
+  return change.size * (change.size / before) <= near_ * change.motion;
 }
 
 bool IterationEnd::is_rounding(const Change& change) const {

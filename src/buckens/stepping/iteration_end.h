@@ -20,12 +20,7 @@ class IterationEnd {
   };
 
   /// @param length of the model [m], @param lever the shortest that turns a body [m]
-  IterationEnd(const StepSettings& settings, double length, double lever)
-      : tolerance_(settings.newton_tolerance),
-        keeps_rounding_(!settings.iterate_coupling),
-        length_(length),
-        leverage_(length / lever),
-        rounding_length_(length) {}
+  IterationEnd(const StepSettings& settings, double length, double lever);
 
   /// A step begins. @param rounding_length to which positions are rounded [m]
   void begin(double rounding_length);
@@ -35,6 +30,9 @@ class IterationEnd {
   /// @param before the change before it, of size 0 if there is none
   /// @param pivots ratio of the smallest pivot to its diagonal entry; 0: no rows
   bool is_settled(const Change& change, const Change& before, double pivots);
+  /// Whether another round with another coupling load may go on from here: what is left open is
+  /// closed there. @param before size of the change before it, 0 if there is none [m]
+  bool is_near(const Change& change, double before) const;
   /// Whether a change is within the rounding of positions, whatever the tolerance.
   bool is_rounding(const Change& change) const;
   /// What residuals may leave to be moved, so that no iteration is needed to tell [m].
@@ -43,6 +41,7 @@ class IterationEnd {
 
  private:
   double tolerance_;
+  double near_;  // what may be left open for another round, relative to the motion
   bool keeps_rounding_;
   double length_;
   double leverage_;  // change of a body that a position turns by its rounding, over that rounding

@@ -61,8 +61,12 @@ class SmallNewton {
 
   /// Iterates until the motion stops changing.
   /// @param lambda first guess and result [N, N m]
+  /// @param goes_on whether iterate_on() is expected to follow: it may leave to it what is small
   /// @throws NumericalError naming the joint that resists, if it does not converge
-  void iterate(std::vector<BodyStep>& bodies, double t, linalg::Vector& lambda, StepReport& report);
+  void iterate(std::vector<BodyStep>& bodies, double t, linalg::Vector& lambda, StepReport& report,
+               bool goes_on = false);
+  /// Whether it has, so that iterate_on() must follow.
+  bool has_left_open() const { return has_left_open_; }
   /// Continues from where iterate() ended in this step, after free responses or moments of `bodies`
   /// changed. A change too small to move anything takes no iteration.
   void iterate_on(std::vector<BodyStep>& bodies, double t, linalg::Vector& lambda,
@@ -231,7 +235,8 @@ class SmallNewton {
   dynamics::JointResiduals residuals_;        // at the end of the step
   dynamics::JointResiduals other_residuals_;  // elsewhere
   dynamics::Forces forces_;
-  dynamics::LawEnds law_ends_;  // at the last evaluation
+  bool goes_on_ = false, has_left_open_ = false;  // see iterate()
+  dynamics::LawEnds law_ends_;                    // at the last evaluation
   /// Scratch: rows of couplers own memory.
   std::array<dynamics::SystemRow, dynamics::JointSet::kMostRows> rows_of_joint_, acting_of_joint_;
   std::vector<model::NearPair> near_;  // that the condensation was made for

@@ -343,7 +343,7 @@ void Stepper::compute_round(const model::State& state, int round, StepReport& re
     newton_->prepare(bodies_, state.t, !is_foretold);
     // After it: matrix and directions belong to where the last accelerations lead.
     if (is_foretold) forecast_.apply(state, bodies_, lambda_);
-    newton_->iterate(bodies_, state.t, lambda_, report);
+    newton_->iterate(bodies_, state.t, lambda_, report, state.had_rounds);
   } else {
     newton_->iterate_on(bodies_, state.t, lambda_, report);
   }
@@ -406,6 +406,7 @@ StepReport Stepper::take_general_step(const model::State& state) {
     const CouplingRounds::Gap gap = compare_coupling(state);
     report.coupling_change = gap.change;
     const auto verdict = rounds.judge(gap, report.large_solve_rounds + report.recycled_rounds);
+    next_.had_rounds = round > 0;
     if (verdict == CouplingRounds::Verdict::ends) break;
     if (verdict == CouplingRounds::Verdict::fails) {
       throw StepFailure(fmt::format(
@@ -415,6 +416,10 @@ StepReport Stepper::take_general_step(const model::State& state) {
           state.t, model_.bodies[least_settled_].name, gap.change, round + 1, scheme_.h));
     }
     take_over_coupling();
+  }
+  if (newton_->has_left_open()) {
+    newton_->iterate_on(bodies_, state.t, lambda_, report);
+    complete(state);
   }
   form_next_state(state);
   take_friction(state.t, report);

@@ -184,12 +184,15 @@ bool StrandStep::is_balanced(double motion) const {
   return true;
 }
 
-bool StrandStep::settle(const model::State& state, StepReport& report, Change change) {
+bool StrandStep::settle(const model::State& state, StepReport& report, Change change,
+                        bool goes_on) {
   Change before;
   for (int iteration = 1;; ++iteration) {
     const bool is_settled = ending_.is_settled(change, before, mechanism_.matrix().pivot_ratio());
+    has_left_open_ = goes_on && !is_settled && ending_.is_near(change, before.size);
     balance_bodies(state, !is_settled);
     record_residuals(residuals_, report);
+    if (has_left_open_) return true;
     if (is_settled) break;
     if (iteration <= settings_.max_newton && is_balanced(change.motion)) break;
     before = change;
@@ -239,6 +242,15 @@ CouplingRounds::Gap StrandStep::compare_coupling() {
   return out;
 }
 
+bool StrandStep::close(const model::State& state, StepReport& report, Change& change) {
+  if (!has_left_open_) return true;
+  if (!move(report, change) || !settle(state, report, change)) return false;
+  for (strand::BodyBlock& block : mechanism_.body_blocks()) {
+    kernels_.complete(mechanism_.constants(), block);
+  }
+  return true;
+}
+
 template <class S>
 bool StrandStep::compute(const model::State& state, StepReport& report) {
   using Row = MeshRows<S>;
@@ -254,7 +266,7 @@ bool StrandStep::compute(const model::State& state, StepReport& report) {
   balance_bodies(state, true);
   record_residuals(residuals_, report);
   Change change;
-  if (!move(report, change) || !settle(state, report, change)) return false;
+  if (!move(report, change) || !settle(state, report, change, state.had_rounds)) return false;
   CouplingRounds rounds(settings_);
   bool has_meshes = false;
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
@@ -263,11 +275,11 @@ bool StrandStep::compute(const model::State& state, StepReport& report) {
     ++solves_[b];
   }
   if (has_meshes) report.large_solve_rounds = 1;
-  for (;;) {
+  for (had_rounds_ = false;; had_rounds_ = true) {
     const CouplingRounds::Gap gap = compare_coupling<S>();
     report.coupling_change = gap.change;
     const auto verdict = rounds.judge(gap, report.large_solve_rounds);
-    if (verdict == CouplingRounds::Verdict::ends) return true;
+    if (verdict == CouplingRounds::Verdict::ends) return close(state, report, change);
     if (verdict == CouplingRounds::Verdict::fails) return false;
     bool any_solves = false;
     for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
@@ -282,7 +294,7 @@ bool StrandStep::compute(const model::State& state, StepReport& report) {
       kernels_.take_over(mechanism_.constants(), block);
       open_ = larger(open_, kernels_.find_residual(mechanism_.constants(), block));
     }
-    if (open_ <= ending_.negligible(motion_)) continue;
+    if (!has_left_open_ && open_ <= ending_.negligible(motion_)) continue;
     if (!move(report, change) || !settle(state, report, change)) return false;
   }
 }
@@ -291,6 +303,7 @@ bool StrandStep::step(const model::State& state, model::State& next, StepReport&
   const bool is_planar = mechanism_.is_planar();
   if (!(is_planar ? compute<Plane>(state, report) : compute<Space>(state, report))) return false;
   is_planar ? write<Plane>(state, next) : write<Space>(state, next);
+  next.had_rounds = had_rounds_;
   return true;
 }
 

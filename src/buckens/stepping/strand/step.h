@@ -81,7 +81,10 @@ class StrandStep {
   /// One iteration; bodies and residuals of joints are then where it leads. @return false if the
   /// motion has diverged
   bool move(StepReport& report, Change& change);
-  bool settle(const model::State& state, StepReport& report, Change change);
+  /// @param goes_on whether it may leave to another round what is small
+  bool settle(const model::State& state, StepReport& report, Change change, bool goes_on = false);
+  /// Closes what settle() has left, where no other round follows.
+  bool close(const model::State& state, StepReport& report, Change& change);
   bool is_balanced(double motion) const;
   model::Coupling& extrapolated(const model::State& state, std::size_t b);
 
@@ -98,6 +101,7 @@ class StrandStep {
   dynamics::JointResiduals residuals_;
   linalg::Vector lambda_, E_, X_;
   IterationEnd ending_;
+  bool had_rounds_ = false, has_left_open_ = false;
   double motion_ = 0;    // of the step, at the last iteration [m]
   double furthest_ = 0;  // largest square of half an angle by which something turns
   double open_ = 0;      // size of the residuals of bodies

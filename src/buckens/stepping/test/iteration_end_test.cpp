@@ -54,6 +54,20 @@ IterationEnd end_with(double lever) {
 constexpr IterationEnd::Change kBefore = {1.57e-8, 0.0759};
 constexpr IterationEnd::Change kChange = {2.24e-8, 0.0759};
 
+TEST(IterationEnd, LeavesToAnotherRoundWhatThatClosesAnyway) {
+  const IterationEnd end = end_with(0.07);
+  const double motion = 1e-2, near = 1e-7 * motion;
+  // Falls by a hundred, to a hundredth of what may be left, and to twice as much.
+  EXPECT_TRUE(end.is_near({near, motion}, 100 * near));
+  EXPECT_FALSE(end.is_near({200 * near, motion}, 100 * 200 * near));
+  EXPECT_FALSE(end.is_near({near, motion}, 1.1 * near)) << "it hardly falls";
+  EXPECT_FALSE(end.is_near({near, motion}, 0.0)) << "nothing is known of how it falls";
+  // What is left must not show in the coupling load that is formed with it.
+  StepSettings exact;
+  exact.outer_tolerance = 1e-10;
+  EXPECT_FALSE(IterationEnd(exact, 1.0, 1.0).is_near({near, motion}, 100 * near));
+}
+
 TEST(IterationEnd, CountsWhatRoundingTurnsByAShortLever) {
   EXPECT_TRUE(end_with(0.07).is_settled(kChange, kBefore, 0.14));
 }

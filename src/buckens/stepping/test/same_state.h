@@ -30,6 +30,7 @@ inline void expect_same(const model::State& a, const model::State& b) {
   EXPECT_EQ(a.lambda, b.lambda);
   EXPECT_EQ(a.lambda_time, b.lambda_time);
   EXPECT_EQ(a.last_step, b.last_step);
+  EXPECT_EQ(a.had_rounds, b.had_rounds);
   EXPECT_EQ(a.history, b.history);
   expect_same(a.before, b.before);
   expect_same(a.earlier, b.earlier);
