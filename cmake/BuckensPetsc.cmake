@@ -10,14 +10,23 @@ if(BUCKENS_MPI AND NOT MPIEXEC_EXECUTABLE)
 endif()
 pkg_check_modules(petsc REQUIRED IMPORTED_TARGET petsc>=3.18)
 
-file(GLOB petsc_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/plugins/petsc/*.cpp")
-add_library(buckens_petsc MODULE ${petsc_sources})
-set_target_properties(
-  buckens_petsc PROPERTIES CXX_VISIBILITY_PRESET hidden LIBRARY_OUTPUT_DIRECTORY
-                                                        "${PROJECT_BINARY_DIR}/lib")
-target_include_directories(buckens_petsc PRIVATE "${PROJECT_SOURCE_DIR}/src")
+# PETSc itself is in a library that the plug-in loads when one of its solvers is asked for: with what it brings along, it takes memory in each process.
+function(add_buckens_plugin name)
+  file(GLOB sources CONFIGURE_DEPENDS ${ARGN})
+  add_library(${name} MODULE ${sources})
+  set_target_properties(${name} PROPERTIES CXX_VISIBILITY_PRESET hidden LIBRARY_OUTPUT_DIRECTORY
+                                                                        "${PROJECT_BINARY_DIR}/lib")
+  target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}/src")
+  target_link_libraries(${name} PRIVATE buckens_options MPI::MPI_C)
+  install(TARGETS ${name} LIBRARY DESTINATION lib/buckens COMPONENT program)
+endfunction()
+
+add_buckens_plugin(buckens_petsc_solvers "${PROJECT_SOURCE_DIR}/plugins/petsc/solvers/*.cpp")
+target_link_libraries(buckens_petsc_solvers PRIVATE PkgConfig::petsc)
+
+add_buckens_plugin(buckens_petsc "${PROJECT_SOURCE_DIR}/plugins/petsc/*.cpp")
 find_path(mumps_headers dmumps_c.h REQUIRED)
 find_library(mumps_library dmumps REQUIRED)
-target_include_directories(buckens_petsc SYSTEM PRIVATE ${mumps_headers})
-target_link_libraries(buckens_petsc PRIVATE buckens_options PkgConfig::petsc ${mumps_library} MPI::MPI_C)
-install(TARGETS buckens_petsc LIBRARY DESTINATION lib/buckens COMPONENT program)
+target_include_directories(buckens_petsc SYSTEM PRIVATE ${mumps_headers} ${petsc_INCLUDE_DIRS})
+target_link_libraries(buckens_petsc PRIVATE ${mumps_library} ${CMAKE_DL_LIBS})
+add_dependencies(buckens_petsc buckens_petsc_solvers)

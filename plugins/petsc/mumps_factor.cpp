@@ -10,7 +10,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "solver.h"
+#include "process_memory.h"
+#include "reasons.h"
 
 namespace buckens_petsc {
 
@@ -37,6 +38,9 @@ bool is_among(int code, const int (&codes)[count]) {
 
 constexpr const char* kNegativePivot = "the matrix is not positive definite";
 constexpr int kNarrowFront = 2;
+// Subtrees of the elimination that one process works on alone may differ in work by so much [%].
+// With more of a difference they are larger, and so are their fronts, of which one process has all.
+constexpr int kEvenSubtrees = 100;
 constexpr double kMillion = 1e6;
 /// Numbers that MUMPS gives in millions where they are large.
 double number(int value) { return value < 0 ? -kMillion * value : value; }
@@ -71,6 +75,7 @@ MumpsFactor::MumpsFactor(MPI_Comm comm) : comm_(comm) {
   // It merges fronts with few variables to eliminate, by KEEP(1), of which its guide says nothing.
   // With the value that it takes for itself the factor of a cube has a tenth more entries.
   mumps_.keep[1 - 1] = kNarrowFront;
+  mumps_.keep[102 - 1] = kEvenSubtrees;
   int* control = mumps_.icntl - 1;  // numbered as in its guide
   control[1] = control[2] = control[3] = -1;
   control[4] = 0;  // says nothing

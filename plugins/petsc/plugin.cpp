@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // What Buckens asks of this plug-in, in C.
 //
-// PETSc brings MPI and libraries under the GPL into the process: so it is loaded by those runs only
+// MPI and MUMPS come with it, and PETSc by a library of its own: so it is loaded by those runs only
 // that ask for it, and nothing else links it.
 #include <cstdio>
+#include <memory>
+#include <string>
+
+#include <petscversion.h>
 
 #include "ranks.h"
-#include "solver.h"
+#include "reasons.h"
+#include "solver_library.h"
 
 namespace {
 
@@ -14,7 +19,7 @@ using namespace buckens_petsc;
 
 /// A solver of this process, or the number of one that all processes share.
 struct Handle {
-  Solver own;
+  std::unique_ptr<LoadedSolver> own;
   int number = -1;
 };
 
@@ -36,8 +41,8 @@ bool make(const BuckensGridMatrix& matrix, Handle& handle) {
     handle.number = ranks()->make(matrix);
     return handle.number >= 0;
   }
-  if (start_petsc() != 0) return false;
-  const KeptErrors errors;
+  const SolverLibrary* library = solver_library();
+  if (library == nullptr) return false;
   Rows rows;
   rows.size = rows.count = rows.stride = matrix.size;
   rows.starts = matrix.all.starts;
@@ -47,7 +52,10 @@ bool make(const BuckensGridMatrix& matrix, Handle& handle) {
   rows.num_motions = matrix.num_motions;
   rows.motions = matrix.motions;
   rows.options = matrix.options;
-  return make_solver(PETSC_COMM_SELF, rows, handle.own) == 0;
+  std::string reason;
+  handle.own.reset(library->make(nullptr, rows, reason));
+  if (handle.own == nullptr) set_reason(reason);
+  return handle.own != nullptr;
 }
 
 void* plugin_make(const BuckensGridMatrix* matrix, char* error, int error_size) {
@@ -65,14 +73,15 @@ int plugin_solve(void* solver, const double* b, double* x, const BuckensGridLimi
     const bool is_solved = ranks()->solve(handle.number, b, x, *limits, *outcome);
     return is_solved ? 0 : fail(error, error_size);
   }
-  const KeptErrors errors;
-  return solve(handle.own, b, x, *limits, *outcome) == 0 ? 0 : fail(error, error_size);
+  std::string reason;
+  if (handle.own->solve(b, x, *limits, *outcome, reason)) return 0;
+  set_reason(reason);
+  return fail(error, error_size);
 }
 
 double plugin_bytes(void* solver) {
   const auto& handle = *static_cast<Handle*>(solver);
-  const KeptErrors errors;
-  return handle.number >= 0 ? ranks()->bytes(handle.number) : bytes_of(handle.own);
+  return handle.number >= 0 ? ranks()->bytes(handle.number) : handle.own->bytes();
 }
 
 void plugin_release(void* solver) {

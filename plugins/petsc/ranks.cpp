@@ -9,7 +9,9 @@
 
 #include <time.h>
 
+#include "process_memory.h"
 #include "ranks_parts.h"
+#include "reasons.h"
 
 namespace buckens_petsc {
 
@@ -30,11 +32,11 @@ Ranks::Ranks() : shared_(std::make_unique<Shared>()) {
   int is_running = 0;
   MPI_Initialized(&is_running);
   if (is_running == 0) MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &level);
+  return_large_blocks();
   MPI_Comm_dup(MPI_COMM_WORLD, &orders_);
   MPI_Comm_dup(MPI_COMM_WORLD, &work_);
   MPI_Comm_rank(work_, &rank_);
   MPI_Comm_size(work_, &count_);
-  (void)start_petsc();
 }
 
 Ranks& Ranks::join() {
@@ -135,7 +137,7 @@ void Ranks::serve(const BuckensGridMaker& maker) {
         break;
       case Task::leave:
         shared_->parts.clear();
-        (void)PetscFinalize();
+        end_solver_library();
         MPI_Finalize();
         return;
     }
@@ -183,7 +185,7 @@ void Ranks::serve_matrices(const Order& order) {
 void Ranks::leave() {
   give(Task::leave);
   shared_->parts.clear();
-  (void)PetscFinalize();
+  end_solver_library();
   MPI_Finalize();
   count_ = 1;  // there is nobody left to share with
 }
@@ -253,9 +255,9 @@ bool Ranks::solve_together(const Order& order, const double* b, double* x,
     has_failed = !part.factor->solve(part.b.data(), part.x.data());
     outcome = {1, 0, 0, 1};
   } else {
-    const KeptErrors errors;
-    has_failed =
-        buckens_petsc::solve(part.solver, part.b.data(), part.x.data(), order.limits, outcome) != 0;
+    std::string reason;
+    has_failed = !part.solver->solve(part.b.data(), part.x.data(), order.limits, outcome, reason);
+    if (has_failed) set_reason(reason);
   }
   if (has_failed_somewhere(has_failed)) return false;
   MPI_Gatherv(part.x.data(), count, MPI_DOUBLE, whole, part.counts.data(), part.first.data(),

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "solver.h"
+#include <mpi.h>
+
+#include "buckens/linalg/grid_plugin.h"
 
 namespace buckens_petsc {
 

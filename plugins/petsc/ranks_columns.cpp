@@ -3,6 +3,7 @@
 #include <array>
 #include <numeric>
 
+#include "process_memory.h"
 #include "ranks_messages.h"
 #include "ranks_parts.h"
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <string>
 
+#include "process_memory.h"
 #include "ranks_messages.h"
 #include "ranks_parts.h"
+#include "reasons.h"
 
 namespace buckens_petsc {
 
@@ -78,6 +80,9 @@ std::unique_ptr<Ranks::Part> Ranks::divide(const Order& order) const {
 }
 
 bool Ranks::make_together(const Order& order, const BuckensGridMatrix* matrix) {
+  const SolverLibrary* library = solver_library();
+  // PETSc begins on all processes or on none.
+  if (has_failed_somewhere(library == nullptr)) return false;
   std::unique_ptr<Part> part = divide(order);
   const int count = part->counts[rank_];
   std::string options(static_cast<std::size_t>(order.options), ' ');
@@ -103,12 +108,10 @@ bool Ranks::make_together(const Order& order, const BuckensGridMatrix* matrix) {
     own = OwnRows();
     if (matrix != nullptr && matrix->give != nullptr) matrix->give(matrix->source, 0, 0, nullptr);
   };
-  bool has_failed = false;
-  {
-    const KeptErrors errors;
-    has_failed = make_solver(work_, rows, part->solver) != 0;
-  }
-  if (has_failed_somewhere(has_failed)) return false;
+  std::string reason;
+  part->solver.reset(library->make(&work_, rows, reason));
+  if (part->solver == nullptr) set_reason(reason);
+  if (has_failed_somewhere(part->solver == nullptr)) return false;
   part->b.resize(static_cast<std::size_t>(count));
   part->x.resize(static_cast<std::size_t>(count));
   shared_->parts[order.number] = std::move(part);

@@ -11,6 +11,8 @@
 
 #include "mumps_factor.h"
 #include "ranks.h"
+#include "reasons.h"
+#include "solver_library.h"
 
 namespace buckens_petsc {
 
@@ -68,16 +70,16 @@ struct Ranks::Order {
 
 /// A solver, and which rows of its matrix are here.
 struct Ranks::Part {
-  Solver solver;
+  std::unique_ptr<LoadedSolver> solver;
   std::unique_ptr<MumpsFactor> factor;  // in place of a solver of PETSc's
   std::vector<int> first;               // rows of the processes, and the end
   std::vector<int> counts;
   std::vector<int> variables;  // of the factor, process after process; only the first has them
   std::vector<double> b, x, whole;
 
-  bool is_direct() const { return factor != nullptr || solver.is_direct; }
+  bool is_direct() const { return factor != nullptr || solver->is_direct(); }
   double bytes() const {
-    return factor != nullptr ? sizeof(double) * factor->entries() : bytes_of(solver);
+    return factor != nullptr ? sizeof(double) * factor->entries() : solver->bytes();
   }
 };
 

@@ -1,30 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <string>
 
 #include <petscksp.h>
 
-#include "buckens/linalg/grid_plugin.h"
+#include "../solver_library.h"
 
 namespace buckens_petsc {
-
-/// Rows of a symmetric matrix that one process holds: all of them, or one run of them.
-struct Rows {
-  int size = 0;   ///< of the whole matrix
-  int count = 0;  ///< of the rows here
-  const int* starts = nullptr;
-  const int* columns = nullptr;
-  const double* values = nullptr;
-  int block = 1;
-  int num_motions = 0;
-  const double* motions = nullptr;  ///< of these rows
-  int stride = 0;                   ///< from motion to motion
-  const char* options = nullptr;    ///< null or empty: none
-  /// Called when they have been copied: only several processes copy them.
-  std::function<void()> release = [] {};
-};
 
 /// A solver of PETSc's for one matrix, on one process or on several that call its functions
 /// together.
@@ -54,13 +37,7 @@ double bytes_of(const Solver& solver);
 
 /// Begins PETSc in this process, which handles signals itself.
 PetscErrorCode start_petsc();
-
-/// OpenBLAS sets memory aside on its first call, and tries for ever if there is none: so before
-/// that of libraries whose errors can be told.
-void prepare_blas();
-
-/// To the system: what was freed, while MPI keeps the allocator from doing so.
-void give_memory_back();
+void end_petsc();
 
 /// While it lives, errors of PETSc are kept instead of printed.
 class KeptErrors {
@@ -72,9 +49,7 @@ class KeptErrors {
 };
 
 /// The last error, which is forgotten by this.
-std::string take_reason();
-void set_reason(const std::string& text);
-/// Writes it, and returns 1.
-int fail(char* error, int size);
+std::string take_error();
+void set_error(const std::string& text);
 
 }  // namespace buckens_petsc

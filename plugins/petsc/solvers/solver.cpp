@@ -4,12 +4,8 @@
 #include "solver.h"
 
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <vector>
-
-#include <malloc.h>
-#include <petscblaslapack.h>
 
 #include "options.h"
 
@@ -290,14 +286,7 @@ PetscErrorCode start_petsc() {
   PetscFunctionReturn(0);
 }
 
-void prepare_blas() {
-  const PetscBLASInt n = 64;
-  const PetscScalar one = 1;
-  std::vector<PetscScalar> a(static_cast<std::size_t>(n) * n, one), b(a);
-  BLAStrsm_("L", "L", "N", "U", &n, &n, &one, a.data(), &n, b.data(), &n);
-}
-
-void give_memory_back() { (void)malloc_trim(0); }
+void end_petsc() { (void)PetscFinalize(); }
 
 KeptErrors::KeptErrors() {
   reason.clear();
@@ -305,17 +294,12 @@ KeptErrors::KeptErrors() {
 }
 KeptErrors::~KeptErrors() { (void)PetscPopErrorHandler(); }
 
-std::string take_reason() {
+std::string take_error() {
   std::string out = reason.empty() ? "unknown error of PETSc" : reason;
   reason.clear();
   return out;
 }
 
-void set_reason(const std::string& text) { reason = text; }
-
-int fail(char* error, int size) {
-  std::snprintf(error, static_cast<std::size_t>(size), "%s", take_reason().c_str());
-  return 1;
-}
+void set_error(const std::string& text) { reason = text; }
 
 }  // namespace buckens_petsc

@@ -51,8 +51,8 @@ PetscErrorCode refuse_words(const char* of_user) {
   bool may_be_value = false;
   for (std::string word; words >> word; may_be_value = is_name(word)) {
     if (is_name(word) || may_be_value) continue;
-    set_reason("\"" + word +
-               "\" is neither an option of PETSc, as -pc_type is, nor the value of one");
+    set_error("\"" + word +
+              "\" is neither an option of PETSc, as -pc_type is, nor the value of one");
     PetscFunctionReturn(PETSC_ERR_USER_INPUT);
   }
   PetscFunctionReturn(0);
@@ -72,7 +72,7 @@ PetscErrorCode refuse_unknown(const char* of_user, PetscOptions options) {
   }
   PetscCall(PetscOptionsLeftRestore(options, &count, &names, &values));
   if (unknown.empty()) PetscFunctionReturn(0);
-  set_reason("PETSc has no use for the option " + unknown);
+  set_error("PETSc has no use for the option " + unknown);
   PetscFunctionReturn(PETSC_ERR_USER_INPUT);
 }
 

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <mpi.h>
+
+#include "buckens/linalg/grid_plugin.h"
+
+namespace buckens_petsc {
+
+/// Rows of a symmetric matrix that one process holds: all of them, or one run of them.
+struct Rows {
+  int size = 0;   ///< of the whole matrix
+  int count = 0;  ///< of the rows here
+  const int* starts = nullptr;
+  const int* columns = nullptr;
+  const double* values = nullptr;
+  int block = 1;
+  int num_motions = 0;
+  const double* motions = nullptr;  ///< of these rows
+  int stride = 0;                   ///< from motion to motion
+  const char* options = nullptr;    ///< null or empty: none
+  /// Called when they have been copied: only several processes copy them.
+  std::function<void()> release = [] {};
+};
+
+/// A solver for one matrix, on one process or on several that call its functions together.
+class LoadedSolver {
+ public:
+  virtual ~LoadedSolver() = default;
+  /// @param b,x of the rows here. @return whether it was possible; otherwise `reason` tells why not
+  virtual bool solve(const double* b, double* x, const BuckensGridLimits& limits,
+                     BuckensGridOutcome& outcome, std::string& reason) = 0;
+  /// About: entries of the levels below the finest, or of the factor, of all processes.
+  virtual double bytes() const = 0;
+  virtual bool is_direct() const = 0;
+};
+
+/// What the library of PETSc's solvers exports.
+///
+/// It is apart since PETSc brings some eighty other libraries along, which take 20 MB of each
+/// process: too much for runs that only need MUMPS.
+struct SolverLibrary {
+  /// Begins PETSc if need be; where several processes share the work, of all together.
+  /// @param comm null: this process alone, whose arrays are used in place, else copied
+  /// @return null after an error
+  LoadedSolver* (*make)(const MPI_Comm* comm, const Rows& rows, std::string& reason);
+  /// Ends PETSc if it was begun, before MPI ends.
+  void (*end)();
+};
+
+/// Loads it. @return null if that fails; then the reason is set
+const SolverLibrary* solver_library();
+/// Ends PETSc if it was ever loaded.
+void end_solver_library();
+
+}  // namespace buckens_petsc
