@@ -187,10 +187,9 @@ class MechanismByChance {
 
   /// A body at a place, with axes of the world.
   int body_at(const Vector3d& place) {
-    const Eigen::Matrix3d J =
-        Vector3d(chance_.between(0.02, 0.05), chance_.between(0.02, 0.05),
-                 chance_.between(0.02, 0.05))
-            .asDiagonal();
+    const Eigen::Matrix3d J = Vector3d(chance_.between(0.02, 0.05), chance_.between(0.02, 0.05),
+                                       chance_.between(0.02, 0.05))
+                                  .asDiagonal();
     return mechanism_.add_rigid(chance_.between(0.5, 2), J,
                                 {place, Eigen::Quaterniond::Identity()});
   }
@@ -281,9 +280,8 @@ class MechanismByChance {
     const int bead = body_at(at);
     mechanism_.add_slider(nodes, mechanism_.marker_at(bead, at));
     ++num_joints_;
-    mechanism_.add_law(
-        std::make_unique<loads::CoordinateSpring>(20.0, 0.3, 0.1),
-        joints::JointCoordinate::displacement(Vector3d::UnitX(), Vector3d::Zero()));
+    mechanism_.add_law(std::make_unique<loads::CoordinateSpring>(20.0, 0.3, 0.1),
+                       joints::JointCoordinate::displacement(Vector3d::UnitX(), Vector3d::Zero()));
   }
 
   void add_joint(JointType type, const model::MarkerId& first, const model::MarkerId& second,

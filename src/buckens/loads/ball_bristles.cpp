@@ -102,8 +102,8 @@ void BallBristles::append_tangent(const Sight& sight, std::vector<SoftRow>& rows
 void BallBristles::append_slopes(const Sight& sight, int /*regime*/,
                                  std::vector<spatial::Wrench>& slopes) const {
   // Across a whole step z has no simple derivative: a difference. The load grows with the reaction.
-  const Vector3d change = torque(sight, bend(sight, 1.0 + kHeavier)) -
-                          torque(sight, bend(sight, 1.0 - kHeavier));
+  const Vector3d change =
+      torque(sight, bend(sight, 1.0 + kHeavier)) - torque(sight, bend(sight, 1.0 - kHeavier));
   const double size = sight.reaction.force.norm();
   const Vector3d per_force =
       size > 0.0 ? Vector3d(change / (2.0 * kHeavier * size)) : Vector3d(Vector3d::Zero());

@@ -34,10 +34,8 @@ class SpringSensor final : public Sensor {
   void append(const Observation& now, std::vector<double>& values) override {
     const model::Load& load = now.model.loads[load_];
     const dynamics::Circumstances around = circumstances_of(now);
-    const dynamics::LoadEnds ends =
-        dynamics::ends_of(now.model, load, now.motions, around.memory);
-    const loads::Action action =
-        dynamics::action_of(now.model, load_, now.state.t, around, ends);
+    const dynamics::LoadEnds ends = dynamics::ends_of(now.model, load, now.motions, around.memory);
+    const loads::Action action = dynamics::action_of(now.model, load_, now.state.t, around, ends);
     const spatial::MarkerMotion& first = ends.first.motion;
     const spatial::MarkerMotion& second = ends.second.motion;
     const Vector3d force = first.R.transpose() * action.on_first.force;

@@ -320,10 +320,9 @@ void Impacts::set_row(std::size_t index, double sign,
   const auto coordinate = static_cast<std::size_t>(load.coordinate);
   const dynamics::LoadEnds ends = dynamics::ends_of(model_, load, motions, memory);
   const joints::JointCoordinate& law = model_.coordinates[coordinate].law;
-  const spatial::PairRow J =
-      ends.travel ? ends.travel->coordinate(coordinate, memory).J
-                  : law.derivatives(ends.first.motion, ends.second.motion,
-                                    dynamics::before_of(memory, coordinate));
+  const spatial::PairRow J = ends.travel ? ends.travel->coordinate(coordinate, memory).J
+                                         : law.derivatives(ends.first.motion, ends.second.motion,
+                                                           dynamics::before_of(memory, coordinate));
   dynamics::row_of(model_, load, ends, J, push.row);
   for (std::size_t k = 0; k < push.row.num_parts(); ++k) {
     push.row.part(k).frame *= sign;
@@ -388,10 +387,8 @@ void Impacts::find_holding(const std::vector<dynamics::BodyMotion>& motions,
   for (const std::size_t k : holds_) {
     const model::Load& load = model_.loads[k];
     if (around.memory != nullptr && around.memory->is_off(k)) continue;
-    const auto first = dynamics::evaluate_marker(model_, load.first, motions);
-    const auto second = dynamics::evaluate_marker(model_, load.second, motions);
-    const loads::Sight sight =
-        dynamics::sight_of(model_, k, t, around, first.motion, second.motion);
+    const dynamics::LoadEnds ends = dynamics::ends_of(model_, load, motions, around.memory);
+    const loads::Sight sight = dynamics::sight_of(model_, k, t, around, ends);
     const auto& law = static_cast<const loads::RigidLaw&>(*load.element);
     if (!law.withstands_impacts(sight)) continue;
     Push push;

@@ -29,7 +29,7 @@ constexpr double kDeadCentre = 1e-10;
 
 // An iteration that converges more slowly than this has the tangents of other directions of
 // sliding.
-constexpr double kTurns = 0.1;
+constexpr double kTurnedTangent = 0.1;
 
 // Iterations between which rows move without ever settling, after which a place is looked for that
 // jumps to and fro.
@@ -315,7 +315,7 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
     }
     if (!are_formed) find_residuals(bodies);
     if (renew_slopes()) before = {};
-    const bool is_slow = change.size > kTurns * size_before && size_before > 0.0;
+    const bool is_slow = change.size > kTurnedTangent * size_before && size_before > 0.0;
     // The torque of a ball turns with its direction of sliding, and so does its tangent.
     if (are_formed && is_slow && look_at_balls(t).any) form_tangent_anew(bodies, t, report);
     size_before = change.size;

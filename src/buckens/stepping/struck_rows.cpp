@@ -11,7 +11,7 @@ namespace buckens::stepping {
 namespace {
 
 // Share of the speeds of both markers that is rounding of the rate between them.
-constexpr double kRounding = 1e-9;
+constexpr double kRoundingOfStruck = 1e-9;
 
 /// Speeds of both markers along a coordinate, whatever their signs [m/s] or [rad/s].
 double speeds_along(const loads::Sight& sight) {
@@ -37,7 +37,7 @@ void follow_struck_rows(const model::Model& model, const std::vector<dynamics::B
     const dynamics::LoadEnds ends = dynamics::ends_of(model, load, after, around.memory);
     const loads::Sight struck = dynamics::sight_of(model, k, t, around, ends_before);
     loads::Sight sight = dynamics::sight_of(model, k, t, around, ends);
-    const double rounding = kRounding * (speeds_along(struck) + speeds_along(sight));
+    const double rounding = kRoundingOfStruck * (speeds_along(struck) + speeds_along(sight));
     if (std::abs(sight.coordinate.rate - struck.coordinate.rate) <= rounding) continue;
     const int regime = law.struck_regime(sight, rounding);
     if (regime == sight.stand.regime) continue;

@@ -57,8 +57,8 @@ class FrictionStart {
     const model::Load& load = model_.loads[law.load];
     const auto motions = dynamics::motions_of(model_, state_);
     const dynamics::LoadEnds ends = dynamics::ends_of(model_, load, motions, &state_.memory);
-    loads::Sight sight = dynamics::sight_of(model_, law.load, state_.t,
-                                            dynamics::circumstances_of(state_), ends);
+    loads::Sight sight =
+        dynamics::sight_of(model_, law.load, state_.t, dynamics::circumstances_of(state_), ends);
     sight.states = &strain;
     double out = 0.0;
     load.element->find_states(sight, &out);

@@ -9,10 +9,10 @@
 #include "buckens/analysis/statics/rest_stop.h"
 #include "buckens/analysis/statics/tolerances.h"
 #include "buckens/dynamics/travel.h"
-#include "buckens/loads/reaction_follower.h"
 #include "buckens/loads/contact.h"
 #include "buckens/loads/contact_friction.h"
 #include "buckens/loads/coordinate_motor.h"
+#include "buckens/loads/reaction_follower.h"
 #include "buckens/model/contact_group.h"
 
 namespace buckens::analysis {

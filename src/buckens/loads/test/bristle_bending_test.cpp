@@ -80,8 +80,8 @@ TEST(BristleBending, IsElasticBelowItsShare) {
   // Around a square within nine tenths of the deflection: back where it was.
   Vector3d z = Vector3d::Zero();
   const double side = 0.6 * kSliding;
-  for (const Vector3d& way : {Vector3d(side, 0, 0), Vector3d(0, side, 0), Vector3d(-side, 0, 0),
-                              Vector3d(0, -side, 0)}) {
+  for (const Vector3d& way :
+       {Vector3d(side, 0, 0), Vector3d(0, side, 0), Vector3d(-side, 0, 0), Vector3d(0, -side, 0)}) {
     z = bent_over(way, z, {kSliding, kSliding}, 0.9);
   }
   EXPECT_LT(z.norm(), 1e-15 * kSliding);

@@ -273,7 +273,8 @@ void add_lock(const joints::JointSpec& joint, MarkerFinder& find) {
     load.second = coordinate.second;
     load.coordinate = index;
     // Its first marker is the point of the beam where the slider is.
-    if (model.joints[static_cast<std::size_t>(coordinate.joint)].track) load.joint = coordinate.joint;
+    if (model.joints[static_cast<std::size_t>(coordinate.joint)].track)
+      load.joint = coordinate.joint;
     load.element = std::make_shared<loads::CoordinateLock>();
     model.loads.push_back(std::move(load));
   }
