@@ -138,4 +138,5 @@ def test_balls_that_turn_round_settle(summary, rod, slider, coefficient, joint, 
     text = SPACE_CRANK.replace("ROD", rod).replace("SLIDER", slider).replace("MU", coefficient).replace("BIG", joint).replace("AXES", axes)
     run = summary(text, "run")
     assert run["step_control"]["failed"] == 0 and run["steps"] == 1000
-    assert run["newton_iterations"]["max"] <= 40
+    # 8.5 in plane to 28 out of plane, all rounds of the inertial coupling together.
+    assert run["newton_iterations"]["total"] <= 30 * run["steps"]
