@@ -139,6 +139,39 @@ def test_functions_are_checked_at_once(sim):
     assert not model._forces and not model._signals and sim.time == 0
 
 
+def test_a_force_is_given_once(sim):
+    """As when a cell of a notebook is executed twice, which would double it."""
+    model = buckens.Model.from_dict(TREE)
+    for owner in (model, sim):
+        owner.force("cart", name="push")(lambda t, x, v: (3, 0, 0))
+        for marker, name in (("cart", "push"), ("cart/top", "push"), ("cart", "drive")):
+            with pytest.raises(buckens.InputError, match=f"force on '{marker}': the model has a load '{name}' already; give another name"):
+                owner.force(marker, name=name)(lambda t, x, v: (0, 0, 0))
+    for one in (sim, buckens.Simulation(model)):
+        one.run()
+        assert one.sensors["place"][0] == pytest.approx(0.5 * (1 + 3) / 2 * 0.01 ** 2, rel=1e-9)
+
+
+def test_texts_that_nobody_has_seen_are_not_cited(tmp_path):
+    """A model of a dictionary or objects has no lines; those of a file are told, as in test_files."""
+    steel = {"E": "200 GPa", "nu": 0.3, "rho": 7850}
+    block = {"mesh": {"box": {"size": [0.2, 0.02, 0.01], "divisions": [4, 1, 1]}, "material": "steel"},
+             "interfaces": {"root": {"face": "x9"}}}
+    model = buckens.Model(materials={"steel": steel}, bodies={"bar": block}, simulation={"duration": 1, "step": 1})
+    again = model.with_changes({"simulation.step": 0.5})
+    for use in (buckens.Simulation, buckens.check, lambda one: buckens.run(one, tmp_path / "out")):
+        for one in (model, again):
+            with pytest.raises(buckens.InputError) as caught:
+                use(one)
+            assert str(caught.value).startswith('interface "root" of body "bar": the mesh has no face "x9"')
+            assert (caught.value.file, caught.value.line, caught.value.column) == (None, None, None)
+    model.save(tmp_path / "bar.yaml")
+    for use in (buckens.Simulation, buckens.check):
+        with pytest.raises(buckens.InputError, match=r'bar.yaml:\d+:\d+: interface "root"') as caught:
+            use(tmp_path / "bar.yaml")
+        assert caught.value.file == str(tmp_path / "bar.yaml")
+
+
 def test_a_wrong_function_is_dropped(sim):
     @sim.force("cart")
     def sound(t, x, v):
@@ -225,6 +258,18 @@ def test_a_run_that_was_ended_is_not_taken_for_a_whole_one():
             with pytest.raises(buckens.InputError, match="finished at t = 0.001 s.*begin another one, or resume"):
                 use()
     assert whole.run() == whole.run()
+
+
+def test_a_block_completes_the_results(tmp_path):
+    with buckens.Simulation(TREE, out=tmp_path / "out") as sim:
+        sim.advance(5e-3)
+    assert buckens.open(tmp_path / "out").summary["end_time"] == pytest.approx(5e-3, rel=1e-12)
+    with pytest.raises(RuntimeError, match="enough"), buckens.Simulation(TREE, out=tmp_path / "failed") as sim:
+        sim.step()
+        raise RuntimeError("enough")
+    assert buckens.open(tmp_path / "failed").status == "interrupted"
+    with pytest.raises(buckens.InputError, match="finished at t = 0.001 s"):
+        sim.step()
 
 
 def test_names_of_what_is_looked_at(sim):

@@ -303,11 +303,13 @@ def test_the_tutorial_works_as_it_is_written(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     text = (SOURCE / "docs" / "tutorials" / "python.md").read_text()
     blocks = [block.split("```")[0] for block in text.split("```python\n")[1:]]
-    first, objects, arrays, controller, force, setting, signal, study, whole = blocks
+    first, objects, arrays, stopped, controller, force, setting, signal, study, whole = blocks
     names = {}
     exec(first, names)
     assert (tmp_path / "mid.png").stat().st_size > 1000 and names["summary"]["steps"] == 2000
     exec(objects.replace('"1 s"', '"10 ms"'), names)
+    exec(stopped.replace("0.2", "2e-3"), names)
+    assert names["sim"].time == pytest.approx(10e-3, rel=1e-12)
     exec(study, names)
     exec(whole, names)
     exec(arrays, names)

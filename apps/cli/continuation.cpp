@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/continuation.h"
 
-#include <cmath>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "buckens/analysis/simulation/output_plan.h"
-#include "buckens/analysis/simulation/settings.h"
+#include "buckens/analysis/simulation/later_end.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/units.h"
 #include "buckens/run_store/run_files.h"
@@ -19,8 +17,6 @@ namespace buckens::cli {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr double kWholeSteps = 1e-9;
 
 void require_run_to_continue(const fs::path& directory) {
   std::error_code error;
@@ -75,6 +71,12 @@ Continuation::Continuation(fs::path directory) : directory_(std::move(directory)
   } catch (const IoError& error) {
     throw IoError(fmt::format("{}: {}", checkpoint().string(), error.what()));
   }
+  if (!kept_.is_steered) return;
+  throw InputError(
+      fmt::format("{0}: functions or values of a Python program act on this run, which the program "
+                  "cannot call. Continue it there: buckens.Simulation.resume(\"{0}\", model) with "
+                  "the same model and functions.",
+                  directory_.string()));
 }
 
 fs::path Continuation::model() const { return directory_ / run_store::kModelName; }
@@ -89,20 +91,7 @@ std::vector<std::string> Continuation::changes_until(const model::ModelDescripti
         fmt::format("--until {}: the run in {} has already reached t = {:.9g} s; give a later time",
                     text, directory_.string(), kept_.time));
   }
-  // Without them, the length of steps and the times of records would follow from the duration.
-  const double steps = (until - kept_.march_start) / kept_.longest_step;
-  const bool is_whole = std::abs(steps - std::round(steps)) <= kWholeSteps * steps;
-  const double end = is_whole ? until : kept_.march_start + std::ceil(steps) * kept_.longest_step;
-  std::vector<std::string> out = {
-      fmt::format("simulation.duration={:.17g}", end),
-      fmt::format("output.every={:.17g}", analysis::plan_output(description).every)};
-  const model::SimulationSpec& spec = *description.simulation;
-  out.push_back(fmt::format("simulation.step={:.17g}", kept_.longest_step));
-  if (spec.has_step_control() && !spec.tolerance) {
-    const double standard = analysis::march_settings(spec).tolerance->relative;
-    out.push_back(fmt::format("simulation.tolerance={:.17g}", standard));
-  }
-  return out;
+  return analysis::changes_for_end(description, {kept_.march_start, kept_.longest_step}, until);
 }
 
 }  // namespace buckens::cli

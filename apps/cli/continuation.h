@@ -24,7 +24,8 @@ void add_continuation_options(CLI::App& verb, ContinuationArguments& arguments);
 /// A run directory whose run goes on.
 class Continuation {
  public:
-  /// @throws IoError if the directory holds no run, or no sound checkpoint
+  /// @throws IoError if the directory holds no run, or no sound checkpoint, InputError if the run
+  /// depends on a program that steers it
   explicit Continuation(std::filesystem::path directory);
 
   /// The model that was run, with everything that --set had changed.

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "buckens/analysis/simulation/choose_modes.h"
-#include "buckens/base/errors.h"
 #include "buckens/base/log.h"
 #include "buckens/model_file/model_file.h"
 #include "buckens/run_store/basis_files.h"
@@ -23,35 +22,22 @@ std::unique_ptr<model::BuiltModel> build(model::ModelDescription description) {
   return out;
 }
 
-/// Calls a function, and takes the place out of the error that it throws.
-template <class Work>
-auto without_places(Work&& work) {
-  try {
-    return work();
-  } catch (const InputError& error) {
-    throw InputError(error.text());
-  } catch (const ModelError& error) {
-    throw ModelError(error.text());
-  } catch (const IoError& error) {
-    throw IoError(error.text());
-  }
-}
-
 }  // namespace
 
-ModelHandle::ModelHandle(model::ModelDescription description)
-    : description_(std::move(description)) {}
+ModelHandle::ModelHandle(model::ModelDescription description, std::string unseen)
+    : description_(std::move(description)), unseen_(std::move(unseen)) {}
 
 std::shared_ptr<ModelHandle> ModelHandle::read(const std::string& path,
                                                const std::vector<std::string>& overrides) {
-  return std::make_shared<ModelHandle>(model_file::read_model_file(path, overrides));
+  return std::make_shared<ModelHandle>(model_file::read_model_file(path, overrides), "");
 }
 
 std::shared_ptr<ModelHandle> ModelHandle::parse(const std::string& text, const std::string& name,
                                                 const std::vector<std::string>& overrides,
                                                 bool is_generated) {
+  const std::string unseen = is_generated ? name : "";
   const auto read_text = [&] { return model_file::read_model_text(text, name, overrides); };
-  return std::make_shared<ModelHandle>(is_generated ? without_places(read_text) : read_text());
+  return std::make_shared<ModelHandle>(without_places(unseen, read_text), unseen);
 }
 
 std::shared_ptr<const model::BuiltModel> ModelHandle::built() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // buckens._core: what the Python package takes from the library. Documented and typed in
 // python/buckens/_core.pyi; users see the package around it.
+#include <fmt/format.h>
 #include <pybind11/eigen.h>
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
@@ -10,8 +11,12 @@
 #include "bindings/simulation_handle.h"
 #include "bindings/studies.h"
 
+#include "buckens/analysis/simulation/later_end.h"
+#include "buckens/base/errors.h"
 #include "buckens/base/version.h"
 #include "buckens/linalg/blas_kernels.h"
+#include "buckens/run_store/kept_records.h"
+#include "buckens/run_store/state_file.h"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -56,7 +61,8 @@ std::shared_ptr<SimulationHandle> make_simulation(
     const std::shared_ptr<ModelHandle>& model,
     const std::vector<std::tuple<std::string, std::string, py::function>>& forces,
     const std::vector<std::tuple<std::string, std::vector<std::string>, py::function>>& signals,
-    int threads, const std::string& out, bool keep_records, const std::string& start_from) {
+    int threads, const std::string& out, bool keep_records, const std::string& start_from,
+    bool continues, const std::string& model_text) {
   SimulationSettings settings;
   for (const auto& [name, marker, function] : forces) {
     settings.forces.push_back({name, marker, function});
@@ -68,6 +74,8 @@ std::shared_ptr<SimulationHandle> make_simulation(
   settings.out = out;
   settings.keep_records = keep_records;
   settings.start_from = start_from;
+  settings.continues = continues;
+  settings.model_text = model_text;
   return std::make_shared<SimulationHandle>(model, settings);
 }
 
@@ -75,11 +83,12 @@ void define_simulation(py::module_& core) {
   using Simulation = SimulationHandle;
   py::class_<Simulation, std::shared_ptr<Simulation>>(core, "Simulation")
       .def(py::init(&make_simulation), "model"_a, "forces"_a, "signals"_a, "threads"_a, "out"_a,
-           "keep_records"_a, "start_from"_a)
+           "keep_records"_a, "start_from"_a, "continues"_a, "model_text"_a)
       .def("step", &Simulation::step)
       .def("advance", &Simulation::advance, "t"_a)
       .def("run", &Simulation::run, "progress"_a)
       .def("finish", &Simulation::finish)
+      .def("leave", &Simulation::leave)
       .def("stop", &Simulation::stop)
       .def("on_step", &Simulation::on_step, "callback"_a)
       .def_property_readonly("time", &Simulation::time)
@@ -102,6 +111,21 @@ void define_simulation(py::module_& core) {
       .def("flush", &Simulation::flush);
 }
 
+/// Changes that move the end of the run of a checkpoint. @param until [s]
+std::vector<std::string> changes_until(const std::string& checkpoint, const ModelHandle& model,
+                                       double until) {
+  const run_store::Continuation kept =
+      run_store::continuation_from(run_store::read_state(checkpoint));
+  if (!(until > kept.time)) {
+    throw InputError(
+        fmt::format("until: {:.9g} s is over, the run has reached t = {:.9g} s; give a later time",
+                    until, kept.time));
+  }
+  if (!model.description().simulation) return {};  // the simulation tells
+  return analysis::changes_for_end(model.description(), {kept.march_start, kept.longest_step},
+                                   until);
+}
+
 py::list messages_as_list() {
   py::list out;
   for (const auto& [level, text] : take_messages()) {
@@ -122,6 +146,7 @@ PYBIND11_MODULE(_core, core) {
   python::translate_exceptions();
   core.attr("version") = kVersion;
   core.def("take_messages", &python::messages_as_list);
+  core.def("changes_until", &python::changes_until, "checkpoint"_a, "model"_a, "until"_a);
   python::define_model(core);
   python::define_simulation(core);
   python::define_studies(core);

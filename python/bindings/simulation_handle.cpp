@@ -24,7 +24,8 @@ struct StepsEnd {};
 }  // namespace
 
 SimulationHandle::SimulationHandle(std::shared_ptr<const ModelHandle> model,
-                                   const SimulationSettings& settings) {
+                                   const SimulationSettings& settings)
+    : is_steered_(!settings.forces.empty() || !settings.signals.empty()) {
   const auto origin = std::make_shared<Eigen::Vector3d>(Eigen::Vector3d::Zero());
   std::vector<model::OwnForce> forces;
   for (const PythonForce& force : settings.forces) {
@@ -34,27 +35,75 @@ SimulationHandle::SimulationHandle(std::shared_ptr<const ModelHandle> model,
   for (const PythonSignal& signal : settings.signals) {
     signals.push_back(signal_function(signal, pending_));
   }
+  compute([&] {
+    model->call([&] {
+      built_ = model->built_with(std::move(forces), signals);
+      *origin = built_->model.origin;
+      set_up(settings);
+    });
+  });
+  simulation_->on_step([this](const analysis::StepView&) { after_step(); });
+  keep_checkpoints();
+  steps_at_start_ = num_steps();
+}
+
+void SimulationHandle::set_up(const SimulationSettings& settings) {
   analysis::SimulationOptions options;
   options.threads = settings.threads;
   options.stop_reason = "stopped from Python";
-  compute([&] {
-    built_ = model->built_with(std::move(forces), signals);
-    *origin = built_->model.origin;
-    const model::ModelDescription& description = built_->description;
-    if (!settings.out.empty()) {
-      directory_ = std::make_unique<run_store::RunDirectory>(
-          settings.out, run_store::RunDirectoryOptions{description.title, description.source, {}});
-    }
-    simulation_ = std::make_unique<analysis::Simulation>(built_, options);
-    if (!settings.start_from.empty()) {
-      simulation_->restore(run_store::read_state(settings.start_from));
-    }
-    if (directory_ || settings.keep_records) {
-      curves_ = std::make_unique<analysis::SensorCurves>(directory_.get());
-      simulation_->record_into(*curves_);
-    }
+  std::optional<base::SavedValues> start;
+  if (!settings.start_from.empty()) start = run_store::read_state(settings.start_from);
+  const model::ModelDescription& description = built_->description;
+  if (!settings.out.empty()) {
+    const std::string& text =
+        settings.model_text.empty() ? description.source : settings.model_text;
+    run_store::RunDirectoryOptions of_directory{description.title, text, {}};
+    if (settings.continues) of_directory.continues = run_store::continuation_from(*start);
+    directory_ = std::make_unique<run_store::RunDirectory>(settings.out, std::move(of_directory));
+  }
+  simulation_ = std::make_unique<analysis::Simulation>(built_, options);
+  if (start) {
+    simulation_->restore(*start,
+                         settings.continues ? analysis::Leeway::steps : analysis::Leeway::none);
+  }
+  if (settings.continues && simulation_->is_done()) {
+    throw InputError(
+        fmt::format("{}: the run has reached its end, t = {:g} s; give a later one: resume(…, "
+                    "until=…)",
+                    settings.out, simulation_->time()));
+  }
+  if (directory_ || settings.keep_records) {
+    curves_ = std::make_unique<analysis::SensorCurves>(directory_.get());
+    simulation_->record_into(*curves_);
+  }
+}
+
+/// After the functions of a step: what they set acts from there on.
+void SimulationHandle::keep_checkpoints() {
+  const double interval = built_->description.simulation->checkpoint;
+  if (!directory_ || interval <= 0.0) return;
+  const auto marked = [this](base::SavedValues state) {
+    if (is_steered_) run_store::mark_steered(state);
+    return state;
+  };
+  checkpoints_.emplace(*simulation_, interval, [this, marked](base::SavedValues state) {
+    directory_->write_checkpoint(marked(std::move(state)));
   });
-  simulation_->on_step([this](const analysis::StepView&) { after_step(); });
+  directory_->checkpoint_at_end([this, marked] { return marked(simulation_->save()); });
+}
+
+SimulationHandle::~SimulationHandle() {
+  leave();
+  // It outlives the simulation whose state it would ask for.
+  if (directory_) directory_->checkpoint_at_end({});
+}
+
+void SimulationHandle::leave() {
+  if (!directory_ || summary_ || phase_ != Phase::idle || num_steps() == steps_at_start_) return;
+  try {
+    complete();
+  } catch (const std::exception&) {  // nobody is left to be told; what was flushed stays readable
+  }
 }
 
 /// Runs something long without Python's lock; afterwards arrays are up to date, and the exception
@@ -184,6 +233,8 @@ std::string SimulationHandle::finish() {
 
 std::string SimulationHandle::complete() {
   if (summary_) return *summary_;
+  const Evaluating evaluating(phase_);
+  const py::gil_scoped_release unlocked;
   const results::RunSummary summary = simulation_->finish();
   summary_ = run_store::summary_json(summary, "", "");
   if (directory_) directory_->finish(summary);
@@ -198,10 +249,12 @@ void SimulationHandle::stop() {
 void SimulationHandle::on_step(py::function callback) {
   require_at_rest("on_step");
   callbacks_.push_back(std::move(callback));
+  is_steered_ = true;
 }
 
 void SimulationHandle::set_load(const std::string& load, const Eigen::Vector3d& value) {
   require_at_rest("set_load");
+  is_steered_ = true;
   evaluate([&] { simulation_->set_load(load, value); });
 }
 
@@ -212,11 +265,14 @@ void SimulationHandle::release_load(const std::string& load) {
 
 void SimulationHandle::set_signal(const std::string& signal, double value) {
   require_at_rest("set_signal");
+  is_steered_ = true;
   evaluate([&] { simulation_->set_signal(signal, value); });
 }
 
 void SimulationHandle::save(const std::string& path) const {
   require_at_rest("save");
+  const Evaluating evaluating(phase_);
+  const py::gil_scoped_release unlocked;
   run_store::write_state(simulation_->save(), path);
 }
 

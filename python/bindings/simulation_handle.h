@@ -19,6 +19,7 @@
 #include "bindings/python_signal.h"
 
 #include "buckens/analysis/error/sensor_curves.h"
+#include "buckens/analysis/simulation/checkpoints.h"
 #include "buckens/analysis/simulation/simulation.h"
 #include "buckens/base/errors.h"
 #include "buckens/run_store/run_directory.h"
@@ -32,6 +33,8 @@ struct SimulationSettings {
   std::string out;           ///< run directory; empty: none
   bool keep_records = true;  ///< sensors at the instants of records, in memory
   std::string start_from;    ///< file with a saved state; empty: the start of the model
+  bool continues = false;    ///< the run in `out`, of whose checkpoint `start_from` is the file
+  std::string model_text;    ///< of model.yaml in `out`; empty: that of the model
 };
 
 /// A simulation for Python: releases Python's lock while it computes, returns arrays that follow
@@ -41,6 +44,10 @@ struct SimulationSettings {
 class SimulationHandle : public std::enable_shared_from_this<SimulationHandle> {
  public:
   SimulationHandle(std::shared_ptr<const ModelHandle> model, const SimulationSettings& settings);
+  /// As leave().
+  ~SimulationHandle();
+  SimulationHandle(const SimulationHandle&) = delete;
+  SimulationHandle& operator=(const SimulationHandle&) = delete;
 
   // ---- advance
   /// @return false if the end was already reached
@@ -52,6 +59,8 @@ class SimulationHandle : public std::enable_shared_from_this<SimulationHandle> {
   std::string run(pybind11::object progress);
   /// Completes records and files. @return summary.json
   std::string finish();
+  /// Completes the files of a run that has taken steps and was not finished, and forgets errors.
+  void leave();
   void stop();
   void on_step(pybind11::function callback);
 
@@ -105,6 +114,8 @@ class SimulationHandle : public std::enable_shared_from_this<SimulationHandle> {
 
   template <class Work>
   void compute(Work&& work);
+  void set_up(const SimulationSettings& settings);
+  void keep_checkpoints();
   /// Calls something short that evaluates forces, with Python's lock held.
   template <class Work>
   auto evaluate(Work&& work) const {
@@ -129,6 +140,9 @@ class SimulationHandle : public std::enable_shared_from_this<SimulationHandle> {
   std::unique_ptr<run_store::RunDirectory> directory_;
   std::unique_ptr<analysis::SensorCurves> curves_;
   std::unique_ptr<analysis::Simulation> simulation_;
+  std::optional<analysis::Checkpoints> checkpoints_;
+  bool is_steered_ = false;  // by functions, or by values set from Python
+  long steps_at_start_ = 0;
   std::vector<pybind11::function> callbacks_;
   pybind11::object progress_ = pybind11::none();
   std::map<std::string, std::vector<double>> tables_;       // of frames and multipliers

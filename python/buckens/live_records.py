@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import os
 import weakref
@@ -17,6 +18,16 @@ _writing: "weakref.WeakValueDictionary[str, _core.Simulation]" = weakref.WeakVal
 def flush_before_reading(directory: PathLike, simulation: _core.Simulation) -> None:
     """Notes which simulation writes into a directory, as long as it lives."""
     _writing[os.path.realpath(directory)] = simulation
+
+
+@atexit.register
+def leave_simulations() -> None:
+    """Completes the files of runs that were not finished.
+
+    At the end of Python, functions given to a simulation may keep it alive: those of a module refer to all its variables.
+    """
+    for simulation in list(_writing.values()):
+        simulation.leave()
 
 
 def flush_records(directory: PathLike) -> None:

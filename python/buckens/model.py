@@ -11,7 +11,7 @@ from .errors import InputError
 from .messages import tell_messages
 from .model_files import ModelFiles
 from .signal_function import (ForceFunction, GivenForce, GivenSignal, SignalFunction, given_force, given_signal,
-                              require_text)
+                              require_new_force, require_text)
 from .yaml_text import _flow, to_yaml
 
 Overrides = Union[Mapping[str, Any], Sequence[str], None]
@@ -103,7 +103,15 @@ class Model:
 
     @classmethod
     def from_yaml(cls, text: str, directory: PathLike = ".") -> Model:
-        """Creates a model from the text of a model file."""
+        """Creates a model from the text of a model file.
+
+        Parameters
+        ----------
+        text
+            The model file, in YAML or JSON.
+        directory
+            Directory of the files that the model names.
+        """
         name = os.path.join(os.fspath(directory), "model.yaml")
         return cls._of(_core.Model.parse(text, name, [], False), ModelFiles())
 
@@ -116,7 +124,7 @@ class Model:
             Values by path, ``{"bodies.rod.beam.elements": 32}``, as for the option `--set`.
         """
         name = os.path.join(self._core.directory, "model.yaml")
-        core = _core.Model.parse(self._core.source, name, overrides_of(changes), False)
+        core = _core.Model.parse(self._core.source, name, overrides_of(changes), True)
         return Model._of(core, self._files, self._forces, self._signals)
 
     def force(self, marker: str, name: Optional[str] = None) -> Callable[[ForceFunction], ForceFunction]:
@@ -140,7 +148,9 @@ class Model:
             require_text("force: name", name, f'model.force({marker!r}, name="push")')
 
         def add(function: ForceFunction) -> ForceFunction:
-            self._forces.append(given_force(function, marker, name))
+            given = given_force(function, marker, name)
+            require_new_force(given, self._forces, self.loads)
+            self._forces.append(given)
             return function
 
         return add
@@ -188,7 +198,13 @@ class Model:
         return self._core.source
 
     def save(self, path: PathLike) -> None:
-        """Writes a model file, and next to it the meshes and matrices that were given as arrays."""
+        """Writes a model file, and next to it the meshes and matrices that were given as arrays.
+
+        Parameters
+        ----------
+        path
+            Such as "rod.yaml"; an existing file is replaced.
+        """
         text = self._files.write_beside(os.path.dirname(os.fspath(path)) or ".", self.to_yaml())
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)

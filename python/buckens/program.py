@@ -69,7 +69,19 @@ def file_of(model: ModelLike) -> Iterator[str]:
             text += f"\nbase: {json.dumps(directory)}\n"
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)
-        yield path
+        try:
+            yield path
+        except errors.Error as error:
+            _forget(error, path)
+            raise
+
+
+def _forget(error: errors.Error, path: str) -> None:
+    """Takes a place in a file out of an error that nobody but this module has seen."""
+    if error.file == path:
+        text = str(error).removeprefix(f"{path}:{error.line}:{error.column}: ").removeprefix(f"{path}: ")
+        error.args = (text,)
+        error.file = error.line = error.column = None
 
 
 def changes_of(set: Overrides) -> List[str]:  # noqa: A002

@@ -57,6 +57,14 @@ def given_force(function: ForceFunction, marker: str, name: Optional[str]) -> Gi
     return name or str(getattr(function, "__name__", "force")), marker, function
 
 
+def require_new_force(force: GivenForce, others: Sequence[GivenForce], loads: Sequence[str]) -> None:
+    """Raises an error if the name is taken, as when a cell of a notebook is executed twice, which would double the force."""
+    name = force[0]
+    if name in loads or any(name == other for other, _, _ in others):
+        raise InputError(f"the force on {force[1]!r}: the model has a load {name!r} already; give another name: "
+                         f"force({force[1]!r}, name=...), or make the model anew if this is to replace it")
+
+
 def _parameters(function: SignalFunction, signal: str) -> List[str]:
     """Returns the names of the parameters after the first, without those that have a default value."""
     try:

@@ -19,7 +19,8 @@ from .instant import Quantity, instant
 from .live_records import flush_before_reading
 from .model import Model, ModelLike, PathLike, model_of
 from .present import Array, Bodies, Signals, Values
-from .signal_function import ForceFunction, SignalFunction, given_force, given_signal, require_function, require_text
+from .run_files import checkpoint_of, keep_files, kept_text
+from .signal_function import ForceFunction, SignalFunction, given_force, given_signal, require_function, require_new_force, require_text
 
 Progress = Union[bool, Callable[[float, float, int], object]]
 
@@ -50,7 +51,7 @@ class Simulation:
     """
 
     def __init__(self, model: ModelLike, out: Optional[PathLike] = None, threads: int = 1,
-                 record: bool = True, *, _start_from: str = "") -> None:
+                 record: bool = True, *, _start_from: str = "", _continues: bool = False) -> None:
         model = model_of(model)
         self._model = model
         self._forces = list(model._forces)
@@ -59,23 +60,27 @@ class Simulation:
         self._callbacks: List[Callable[[], object]] = []
         if not isinstance(threads, int) or not 1 <= threads <= 256:
             raise InputError(f"threads: expected a whole number from 1 to 256, found {threads!r}")
-        self._options = ("" if out is None else os.fspath(out), threads, record, _start_from)
+        self._options = ("" if out is None else os.fspath(out), threads, record, _start_from, _continues)
         self._was_seen = False
         self._bodies: Optional[Bodies] = None
         self._is_over = False
         self._prepare()
 
     @classmethod
-    def resume(cls, path: PathLike, model: ModelLike, out: Optional[PathLike] = None, threads: int = 1,
-               record: bool = True, *, until: Optional[Quantity] = None) -> Simulation:
-        """Continues from a state saved by :meth:`save`, with bit-identical results.
+    def resume(cls, path: PathLike, model: Optional[ModelLike] = None, out: Optional[PathLike] = None,
+               threads: int = 1, record: bool = True, *, until: Optional[Quantity] = None) -> Simulation:
+        """Continues from a state saved by :meth:`save`, or a run from its last checkpoint, with bit-identical results.
 
         Parameters
         ----------
         path
-            File with the state.
-        model, out, threads, record
-            As for :class:`Simulation`; the model may differ from the saved one in title and duration.
+            File with the state, or directory of a run that ended early, whose results go on.
+        model
+            The model may differ from the saved one in title and duration, that of a run also in ``step`` and
+            ``tolerance``. By default the one in the directory of the run.
+        out, threads, record
+            As for :class:`Simulation`. With ``out`` the results of a run go on in that directory instead, without
+            those before the checkpoint.
         until
             New end of the run, in seconds or such as "30 ms", which replaces the ``duration`` of the model.
 
@@ -84,26 +89,44 @@ class Simulation:
         InputError
             If the model differs from the saved one, naming the difference.
         IoError
-            If the file cannot be read or is damaged.
+            If the file cannot be read or is damaged, or the run has left no checkpoint.
+
+        Notes
+        -----
+        Forces and signals by functions are given to the model, functions for :meth:`on_step` to the simulation that is
+        returned, as before.
         """
+        place = os.fspath(path)
+        is_run = os.path.isdir(place)
+        if is_run:
+            start_from = checkpoint_of(place)
+            model = os.path.join(place, "model.yaml") if model is None else model
+        elif model is None:
+            raise InputError(f"resume: {place} holds a state only; give the model with which it was saved")
+        else:
+            start_from = place
         if until is not None:
-            model = model_of(model).with_changes({"simulation.duration": instant("until", until)})
-        return cls(model, out, threads, record, _start_from=os.fspath(path))
+            model, end = model_of(model), instant("until", until)
+            model = model.with_changes(_core.changes_until(start_from, model._core, end) if is_run else
+                                       {"simulation.duration": end})
+        continues = is_run and out is None
+        return cls(model, place if continues else out, threads, record, _start_from=start_from, _continues=continues)
 
     def _prepare(self) -> None:
-        out, threads, record, start_from = self._options
+        out, threads, record, start_from, continues = self._options
         self._core_now: Optional[_core.Simulation] = None
         self._is_preparing = True
         try:
+            text = kept_text(self._model, out) if continues else ""
             self._core_now = _core.Simulation(self._model._core, self._forces, self._signals, threads,
-                                              out, record, start_from)
+                                              out, record, start_from, continues, text)
         finally:
             self._is_preparing = False
         for callback in self._callbacks:
             self._core_now.on_step(callback)
         if out:
             flush_before_reading(out, self._core_now)
-        if out and self._model._files:
+        if out and not continues and self._model._files:
             keep_files(self._model, out)
         tell_messages()
 
@@ -149,7 +172,13 @@ class Simulation:
         return not self._is_over
 
     def advance(self, t: float) -> bool:
-        """Takes steps until one ends at or after t [s]; returns False if the run ended first."""
+        """Takes steps until one ends at or after an instant; returns False if the run ended first.
+
+        Parameters
+        ----------
+        t
+            Time [s]. Steps keep their length, so that the last one may end after it.
+        """
         return self._core.advance(_number("the time to advance to", t))
 
     def run(self, progress: Progress = False) -> Dict[str, Any]:
@@ -201,6 +230,11 @@ class Simulation:
 
         An exception in the function ends the run after this step, and the call that advances the
         simulation raises it.
+
+        Parameters
+        ----------
+        function
+            Called as ``function(sim)``. What it sets acts from the next step on.
         """
         require_function("on_step", function)
         myself = weakref.ref(self)
@@ -221,6 +255,11 @@ class Simulation:
 
         Use it before the simulation takes a step or hands out arrays. It sets the simulation up again;
         for large models :meth:`buckens.Model.force` avoids that.
+
+        Parameters
+        ----------
+        marker, name
+            As for :meth:`buckens.Model.force`.
         """
 
         require_text("force", marker, 'sim.force("rod/end")')
@@ -229,6 +268,7 @@ class Simulation:
 
         def add(function: ForceFunction) -> ForceFunction:
             given = given_force(function, marker, name)
+            require_new_force(given, self._forces, self._model.loads)
             self._require_new(f"the force on {marker!r}")
             self._forces.append(given)
             self._core_now = None
@@ -241,6 +281,11 @@ class Simulation:
         """Decorator: as :meth:`buckens.Model.signal`, for this simulation only.
 
         Use it before the simulation takes a step or hands out arrays, as :meth:`force`.
+
+        Parameters
+        ----------
+        name, inputs
+            As for :meth:`buckens.Model.signal`.
         """
 
         if name is not None:
@@ -267,18 +312,22 @@ class Simulation:
 
         Parameters
         ----------
+        signal
+            Name of a signal with a ``setting``.
         value
             In SI units of the quantity that follows it.
         """
         self._core.set_signal(signal, _number(f"signal {signal!r}", value))
 
     def set_load(self, load: str, value: Sequence[float]) -> None:
-        """Sets a force [N] or torque [N m] of the model, in place of its law, from now on.
+        """Sets a force or torque of the model, in place of its law, from now on.
 
         Parameters
         ----------
+        load
+            Name of a ``force`` or ``torque`` of the model.
         value : (3,)
-            Components in the axes of the load.
+            Components in the axes of the load [N] or [N m].
         """
         given = np.asarray(value, dtype=object)
         try:
@@ -290,12 +339,31 @@ class Simulation:
         self._core.set_load(load, numbers)
 
     def release_load(self, load: str) -> None:
-        """Returns a load to its law."""
+        """Returns a load to its law.
+
+        Parameters
+        ----------
+        load
+            Name of a load that :meth:`set_load` has set.
+        """
         self._core.release_load(load)
 
     def save(self, path: PathLike) -> None:
-        """Saves the state, from which :meth:`resume` continues with bit-identical results."""
+        """Saves the state, from which :meth:`resume` continues with bit-identical results.
+
+        Parameters
+        ----------
+        path
+            Such as "half.h5"; an existing file is replaced once the new one is complete.
+        """
         self._core.save(os.fspath(path))
+
+    def __enter__(self) -> Simulation:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        """Completes the results, whatever has ended the block."""
+        self.finish()
 
     # ---- look
     @property
@@ -361,7 +429,13 @@ class Simulation:
         return core.multipliers()
 
     def value(self, path: str) -> Any:
-        """Returns a copy of the current value of any recorded quantity, such as "joints/hinge/force"."""
+        """Returns a copy of the current value of any recorded quantity.
+
+        Parameters
+        ----------
+        path
+            Such as "joints/hinge/force"; :attr:`quantities` lists all, with their units.
+        """
         return Values(self._core, "")[path]
 
     @property
@@ -378,15 +452,6 @@ class Simulation:
     def __repr__(self) -> str:
         return (f"<buckens.Simulation {self._model.title!r}: t = {self.time:.6g} of "
                 f"{self.end_time:.6g} s, {self.num_steps} steps>")
-
-
-def keep_files(model: Model, out: str) -> None:
-    """Writes meshes and matrices given as arrays to the run directory, and their names to its model.yaml."""
-    path = os.path.join(out, "model.yaml")
-    with open(path, encoding="utf-8") as file:
-        text = file.read()
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(model._files.write_beside(out, text, is_absolute=True))
 
 
 def _number(what: str, value: float) -> float:

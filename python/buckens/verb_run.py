@@ -9,7 +9,7 @@ from typing import Any, Dict, Optional
 from .instant import Quantity, instant
 from .model import Model, ModelLike, Overrides, PathLike, model_of
 from .program import call, changes_of, file_of, options_of
-from .simulation import keep_files
+from .run_files import keep_files
 
 
 def run(model: ModelLike, out: PathLike, set: Overrides = None, *, error: bool = False,  # noqa: A002
@@ -26,6 +26,8 @@ def run(model: ModelLike, out: PathLike, set: Overrides = None, *, error: bool =
         A :class:`buckens.Model`, a dictionary with the keys of a model file, or the path of one.
     out
         Directory for results, see :func:`buckens.open`. An existing run in it is replaced.
+    set
+        Values to replace, as for :func:`buckens.load`.
     error
         Repeats the run with one refinement at a time and estimates the uncertainty of each sensor, in
         ``["errors"]["sensors"]``. This takes several times as long, and the run cannot be continued.
@@ -65,10 +67,10 @@ def run(model: ModelLike, out: PathLike, set: Overrides = None, *, error: bool =
 def continue_run(out: PathLike, until: Optional[Quantity] = None, set: Overrides = None, *,  # noqa: A002
                  threads: Optional[int] = None, factors: Optional[PathLike] = None,
                  save_state: Optional[PathLike] = None, save_state_at: Optional[float] = None) -> Dict[str, Any]:
-    """Continues a run of the program from its last checkpoint.
+    """Continues a run from its last checkpoint.
 
-    Results are bit-identical with those of an uninterrupted run. Checkpoints are written by :func:`buckens.run` and
-    the program; for :class:`buckens.Simulation` use its ``save`` and ``resume``.
+    Results are bit-identical with those of an uninterrupted run. A run on which functions of Python act, or values set
+    from Python, needs :meth:`buckens.Simulation.resume`.
 
     Parameters
     ----------

@@ -14,6 +14,7 @@ namespace buckens::run_store {
 namespace {
 
 constexpr std::size_t kBlockValues = 2U << 20U;  // copied at once: 16 MB
+constexpr char kSteered[] = "steered";
 
 std::vector<double> up_to(const std::vector<double>& times, double last,
                           const std::filesystem::path& file) {
@@ -80,9 +81,14 @@ double number_in(const base::SavedValues& state, const std::string& name) {
 
 Continuation continuation_from(const base::SavedValues& checkpoint) {
   return {number_in(checkpoint, "recording/last_due"),
-          number_in(checkpoint, "recording/last_due_fields"), number_in(checkpoint, "state/t"),
-          number_in(checkpoint, "march_start"), number_in(checkpoint, "longest_step")};
+          number_in(checkpoint, "recording/last_due_fields"),
+          number_in(checkpoint, "state/t"),
+          number_in(checkpoint, "march_start"),
+          number_in(checkpoint, "longest_step"),
+          checkpoint.texts.contains(kSteered)};
 }
+
+void mark_steered(base::SavedValues& checkpoint) { checkpoint.texts[kSteered] = {"yes"}; }
 
 KeptRecords::KeptRecords(const std::filesystem::path& directory, const Continuation& until)
     : file_(directory / kResultsName),

@@ -18,10 +18,15 @@ struct Continuation {
   double time = 0;          ///< of the checkpoint [s]
   double march_start = 0;   ///< where its grid of steps begins [s]
   double longest_step = 0;  ///< of that grid [s]
+  bool is_steered = false;  ///< see mark_steered()
 };
 
 /// What a checkpoint says about it. @throws IoError if the saved state is none of a recorded run
 Continuation continuation_from(const base::SavedValues& checkpoint);
+
+/// Notes in a checkpoint that functions or values from outside the model act on the run: without
+/// them a continuation would be another run.
+void mark_steered(base::SavedValues& checkpoint);
 
 /// Takes consecutive rows of a table: their times, and the values of all channels row by row.
 using AppendRows = std::function<void(std::span<const double>, std::span<const double>)>;

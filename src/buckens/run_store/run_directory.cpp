@@ -270,6 +270,7 @@ void RunDirectory::finish(const results::RunSummary& summary) {
   results::RunSummary told = summary;
   if (told.version.empty()) told.version = kVersion;
   if (told.title.empty()) told.title = options_.title;
+  const bool has_records = recorder_ != nullptr;
   std::exception_ptr failure;
   try {
     if (recorder_) recorder_->close();
@@ -285,7 +286,7 @@ void RunDirectory::finish(const results::RunSummary& summary) {
   }
   write_status(summary_json(told, started_, files::utc_now()));
   // Last, so that a run which is killed before has one to complete its files from.
-  if (failure_.empty() && last_state_) try_checkpoint(last_state_());
+  if (failure_.empty() && has_records && last_state_) try_checkpoint(last_state_());
   log_.close();
   if (failure) std::rethrow_exception(failure);
 }

@@ -68,7 +68,8 @@ class RunDirectory : public results::RecordSink {
   /// written leaves the one before in place, and is a warning in the log.
   /// @throws IoError as write(), if records cannot be written
   void write_checkpoint(const base::SavedValues& state);
-  /// `state` is asked by finish() for a last checkpoint, unless writing has failed. Null: none.
+  /// `state` is asked by finish() for a last checkpoint, unless writing has failed or there are no
+  /// records. Null: none.
   void checkpoint_at_end(std::function<base::SavedValues()> state) {
     last_state_ = std::move(state);
   }

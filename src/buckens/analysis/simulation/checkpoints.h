@@ -14,7 +14,7 @@ namespace buckens::analysis {
 /// grows.
 class Checkpoints {
  public:
-  using Write = std::function<void(const base::SavedValues&)>;
+  using Write = std::function<void(base::SavedValues)>;
 
   /// Follows the steps of the simulation from now on, and must outlive them.
   /// @param interval wall time between checkpoints [s]
