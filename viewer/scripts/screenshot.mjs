@@ -29,6 +29,8 @@ if (!page || !out) {
   process.exit(2);
 }
 
+const kPatience = 300e3; // a busy machine without graphics hardware draws slowly [ms]
+
 const browser = await launch();
 try {
   const tab = await browser.newPage({
@@ -36,6 +38,7 @@ try {
     colorScheme: values.dark ? 'dark' : 'light',
     reducedMotion: 'reduce',
   });
+  tab.setDefaultTimeout(kPatience);
   await tab.goto(`${pathToFileURL(page).href}#fine`);
   if (await tab.evaluate(() => Boolean(window.__buckens))) {
     await tab.locator('.scrub').evaluate((slider, fraction) => {
