@@ -40,6 +40,7 @@ constexpr const char* kNegativePivot = "the matrix is not positive definite";
 constexpr int kNarrowFront = 2;
 // Subtrees of the elimination that one process works on alone may differ in work by so much [%].
 // With more of a difference they are larger, and so are their fronts, of which one process has all.
+// On two processes that makes their largest part larger.
 constexpr int kEvenSubtrees = 100;
 constexpr double kMillion = 1e6;
 /// Numbers that MUMPS gives in millions where they are large.
@@ -75,7 +76,7 @@ MumpsFactor::MumpsFactor(MPI_Comm comm) : comm_(comm) {
   // It merges fronts with few variables to eliminate, by KEEP(1), of which its guide says nothing.
   // With the value that it takes for itself the factor of a cube has a tenth more entries.
   mumps_.keep[1 - 1] = kNarrowFront;
-  mumps_.keep[102 - 1] = kEvenSubtrees;
+  if (number_of_processes() > 2) mumps_.keep[102 - 1] = kEvenSubtrees;
   int* control = mumps_.icntl - 1;  // numbered as in its guide
   control[1] = control[2] = control[3] = -1;
   control[4] = 0;  // says nothing
@@ -91,6 +92,12 @@ MumpsFactor::MumpsFactor(MPI_Comm comm) : comm_(comm) {
 }
 
 MumpsFactor::~MumpsFactor() { (void)run(kEnd); }
+
+int MumpsFactor::number_of_processes() const {
+  int count = 1;
+  MPI_Comm_size(comm_, &count);
+  return count;
+}
 
 /// Whether it went well; otherwise the reason is set.
 bool MumpsFactor::run(int job) {
@@ -164,9 +171,7 @@ bool MumpsFactor::set_aside(double numbers) {
 /// and the end is what waits no longer: so the less there is, the less of it was ever written to.
 /// MUMPS moves fronts without room elsewhere, but needs it for the one that it works on.
 double MumpsFactor::numbers_at_first() const {
-  int count = 1;
-  MPI_Comm_size(comm_, &count);
-  const double share = count == 2 ? kShareOfTwo : 1.0;
+  const double share = number_of_processes() == 2 ? kShareOfTwo : 1.0;
   constexpr double kAdded = 1.0 + kRelaxation / 100.0;
   const double all = number(mumps_.info[8 - 1]) / kAdded;
   const double fronts = number(mumps_.info[20 - 1]) / kAdded;

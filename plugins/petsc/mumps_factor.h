@@ -65,6 +65,7 @@ class MumpsFactor {
   double entries() const;
 
  private:
+  int number_of_processes() const;
   bool run(int job);
   bool factorise();
   bool set_aside(double numbers);
