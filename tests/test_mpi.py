@@ -143,6 +143,16 @@ def energies(directory):
         return {name: file[f"energies/{name}"][()] for name in ("kinetic", "strain")}
 
 
+def expect_same_displacements(several_, one):
+    """Of all nodes, in the records of bodies: their inertia is integrated by other processes."""
+    with h5py.File(several_ / "results.h5") as found, h5py.File(one / "results.h5") as expected:
+        for name in expected["bodies"]:
+            values = expected[f"bodies/{name}/displacement"][()]
+            scale = numpy.abs(values).max()
+            assert scale > 0
+            assert numpy.abs(found[f"bodies/{name}/displacement"][()] - values).max() < 1e-9 * scale, name
+
+
 def expect_same_energies(several_, one):
     """Both are products with M and K, which other processes have."""
     expected = energies(one)
@@ -170,6 +180,7 @@ def test_a_large_body_is_distributed(alone, mpirun, tmp_path, count):
     (tmp_path / "cube.yaml").write_text(CUBE)
     must(mpirun(count, "run", "cube.yaml", "-o", "several"))
     assert largest_difference(sensors(tmp_path / "several"), sensors(alone("cube"))) < 1e-9
+    expect_same_displacements(tmp_path / "several", alone("cube"))
     expect_same_energies(tmp_path / "several", alone("cube"))
     expect_same_stresses(tmp_path / "several", alone("cube"))
     with h5py.File(alone("cube") / "results.h5") as one, h5py.File(tmp_path / "several" / "results.h5") as several_:
@@ -208,6 +219,7 @@ def test_a_large_body_of_another_kind(alone, mpirun, tmp_path, name):
     limit = 1e-8 if name == "iterative" else 1e-9
     assert largest_difference(sensors(tmp_path / "two"), sensors(one)) < limit
     if name != "iterative":
+        expect_same_displacements(tmp_path / "two", one)
         expect_same_energies(tmp_path / "two", one)
     factors = json.loads((tmp_path / "two" / "summary.json").read_text())["bodies"]["cube"]["factorisations"]
     assert factors == {"iterative": 0, "steps of its own": 2}.get(name, 1)
@@ -378,6 +390,32 @@ def told_with_little_memory(place, most, model="cube.yaml"):
     told = [line for line in result.stderr.splitlines() if line.startswith("buckens: error")]
     assert len(told) == 1 and "too little memory" in told[0], result.stderr
     return told[0]
+
+
+def libraries(process):
+    """Names of the shared libraries that a process has loaded."""
+    return {pathlib.Path(line.split()[-1]).name for line in pathlib.Path(f"/proc/{process}/maps").read_text().splitlines() if ".so" in line}
+
+
+@several
+@pytest.mark.parametrize("options, has_petsc", [((), False), (ITERATE, True)], ids=["direct", "iterative"])
+def test_petsc_is_loaded_by_those_that_need_it(tmp_path, options, has_petsc):
+    """It takes 15 MB of each process, with eighty libraries that it brings along."""
+    command = [MPIRUN, "-n", "2", PROGRAM, "run", BLOCKS, "-o", "out", "-q", "--set", "simulation.duration=60 s", *options]
+    runs = subprocess.Popen(command, cwd=tmp_path, env=ENVIRONMENT, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        deadline = time.monotonic() + 120
+        csv = tmp_path / "out" / "sensors.csv"
+        while not csv.exists() or len(csv.read_text().splitlines()) < 3:
+            assert time.monotonic() < deadline and runs.poll() is None
+            time.sleep(0.1)
+        for rank in (0, 1):
+            loaded = libraries(started(runs, rank))
+            assert "libbuckens_petsc.so" in loaded
+            assert any(name.startswith("libpetsc") for name in loaded) == has_petsc
+    finally:
+        runs.terminate()
+        runs.wait(timeout=60)
 
 
 @several
