@@ -20,6 +20,7 @@ constexpr double kLeftOfChange = 1e-15;
 // What rounding of positions leaves open, relative to the model's length, or to the distance from
 // the origin where that is more.
 constexpr double kRounding = 1e-15;
+constexpr double kManyRoundings = 100.0;
 // A change that no longer falls is rounding if it is below this share of the model's length, or of
 // what the rounding of positions may turn: joints close to it only, and a body that is held by a
 // short lever turns far for it. Rows of a matrix make some fifty roundings (2e-16) of one.
@@ -57,7 +58,10 @@ bool IterationEnd::is_settled(const Change& change, const Change& before, double
 
 bool IterationEnd::is_near(const Change& change, double before) const {
   if (!(change.size < kSlow * before)) return false;
-  return change.size * (change.size / before) <= near_ * change.motion;
+  // What rounding leaves no other round closes better.
+  const double left = near_ * change.motion;
+  if (left < kManyRoundings * kRounding * rounding_length_) return false;
+  return change.size * (change.size / before) <= left;
 }
 
 bool IterationEnd::is_rounding(const Change& change) const {

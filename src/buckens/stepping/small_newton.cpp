@@ -283,8 +283,6 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
     const bool is_settled =
         flickers > 1 ||
         (are_formed && ending_.is_settled(change, before, condensation_->pivot_ratio()));
-    has_left_open_ = goes_on_ && are_formed && !is_settled && ending_.is_near(change, size_before);
-    if (has_left_open_) return;
     since_settled = is_settled ? 0 : since_settled + 1;
     const bool is_failing = !is_settled && (since_moved + 1 >= settings_.max_newton ||
                                             since_settled % kMostUnsettled == 0);
@@ -303,6 +301,8 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
         since_moved <= settings_.max_newton) {
       break;
     }
+    has_left_open_ = goes_on_ && are_formed && ending_.is_near(change, size_before);
+    if (has_left_open_) return;
     if (are_formed) {
       before = change;
     } else {
@@ -327,6 +327,7 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
 void SmallNewton::iterate(std::vector<BodyStep>& bodies, double t, Vector& lambda,
                           StepReport& report, bool goes_on) {
   goes_on_ = goes_on && rigid_.empty() && !has_quasi_static_;
+  has_left_open_ = false;
   leave_to_rows_in_use(lambda);
   if (!is_evaluated_) evaluate(bodies, t, lambda);
   record_residuals(residuals_, report);
@@ -346,7 +347,7 @@ void SmallNewton::iterate_on(std::vector<BodyStep>& bodies, double t, Vector& la
   // Motions, rows and forces are those of the last evaluation.
   const double open = find_residuals(bodies);
   if (!has_left_open_ && open <= ending_.negligible(motion_)) return;
-  goes_on_ = false;
+  goes_on_ = has_left_open_ = false;
   settle(bodies, t, lambda, move(bodies, t, lambda, report), report);
 }
 

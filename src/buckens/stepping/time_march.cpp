@@ -54,8 +54,9 @@ TimeMarch::TimeMarch(const model::Model& model, StepSettings settings, std::vect
 bool TimeMarch::fits(int k) const { return ticks_ % (kTicks >> k) == 0; }
 
 double TimeMarch::time() const {
-  // Counting avoids the drift of summed steps.
-  if (is_done()) return march_.duration;
+  // Counting avoids the drift of summed steps. Where a given step fills the run, its end is counted
+  // as any instant, so that a run that is made longer equals a long one.
+  if (is_done() && ladder_.step(0) != march_.given_step) return march_.duration;
   return march_.start + static_cast<double>(ticks_) / static_cast<double>(kTicks) * ladder_.step(0);
 }
 

@@ -325,15 +325,10 @@ Found own_joint_problem(const loads::BallFrictionSpec& spec, const ModelDescript
                                "use `hinge-friction` or `slide-friction`",
                                spec.joint, joint.kind_name())};
   }
-  if (is_cross && spec.stick != loads::FrictionStick::elastic) {
+  if (spec.stick != loads::FrictionStick::elastic) {
     return Finding{"stick",
-                   "`ball-friction` on a universal joint sticks by stiff springs; use two loads "
-                   "`hinge-friction` instead, on its `angle` and its `second-angle` (`which`)"};
-  }
-  if (spec.stick == loads::FrictionStick::rigid) {
-    return Finding{"stick",
-                   "a ball sticks by a stiff spring or by bristles; remove this key, or write "
-                   "`stick: elastic` or `stick: bristles`"};
+                   "a ball or cross joint sticks by a stiff spring; remove this key, or write "
+                   "`stick: elastic`"};
   }
   if (spec.length) {
     return Finding{"bearing-length", "balls and crosses carry no bending moments; remove this key"};

@@ -187,14 +187,15 @@ bool StrandStep::is_balanced(double motion) const {
 bool StrandStep::settle(const model::State& state, StepReport& report, Change change,
                         bool goes_on) {
   Change before;
+  has_left_open_ = false;
   for (int iteration = 1;; ++iteration) {
     const bool is_settled = ending_.is_settled(change, before, mechanism_.matrix().pivot_ratio());
-    has_left_open_ = goes_on && !is_settled && ending_.is_near(change, before.size);
     balance_bodies(state, !is_settled);
     record_residuals(residuals_, report);
-    if (has_left_open_) return true;
     if (is_settled) break;
     if (iteration <= settings_.max_newton && is_balanced(change.motion)) break;
+    has_left_open_ = goes_on && ending_.is_near(change, before.size);
+    if (has_left_open_) return true;
     before = change;
     if (iteration >= settings_.max_newton || !move(report, change)) return false;
   }
