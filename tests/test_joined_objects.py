@@ -2,6 +2,7 @@
 """Parts of the library are compiled without optimisation (BUCKENS_LIGHT in src/CMakeLists.txt). Functions of templates that
 they share with optimised parts must come from the latter, or steps would run at a fraction of their speed."""
 
+import os
 import re
 import subprocess
 
@@ -22,13 +23,13 @@ def shared_functions(path):
 def joined_objects():
     """The objects in the order in which they are joined. A build folder may hold others, of an earlier configuration."""
     rule = next(line for line in (BINARY / "build.ninja").read_text().splitlines() if " -r -nostdlib " in line)
-    return re.findall(r"[^ ]+_objects\.dir/[^ ]+\.o", rule)
+    return [os.path.normpath(path) for path in re.findall(r"[^ ]+_objects\.dir/[^ ]+\.o", rule)]
 
 
 def compiled_objects():
     """The objects of the library, as the rules that compile them name them."""
     rules = re.findall(r"^build ([^ ]+_objects\.dir/[^ ]+\.o): ", (BINARY / "build.ninja").read_text(), re.MULTILINE)
-    return {str(BINARY / path) for path in rules if "/buckens_" in path}
+    return {os.path.normpath(BINARY / path) for path in rules if "/buckens_" in path}
 
 
 def test_optimised_copies_are_kept():
