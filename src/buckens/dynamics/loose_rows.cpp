@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "buckens/dynamics/multiplier_condensation.h"
-#include "buckens/linalg/small_inverse.h"
 #include "buckens/linalg/small_lu.h"
 
 namespace buckens::dynamics {
@@ -20,7 +19,7 @@ constexpr double kSolved = 1e-10;
 constexpr int kMostSweeps = 200;
 // Blocks of up to so many rows are inverted without memory from the heap: eight spots with
 // friction.
-constexpr int kSmall = linalg::kMostSmallRows;
+constexpr int kSmall = 24;
 
 Eigen::Map<const Eigen::Matrix<double, 6, 1>> numbers_of(const double* values) {
   return Eigen::Map<const Eigen::Matrix<double, 6, 1>>(values);
@@ -49,7 +48,8 @@ void invert(Eigen::MatrixXd& S) {
     return;
   }
   const Small before = S;
-  linalg::small_inverse(before, S);
+  const Small inverse = before.inverse();
+  S = inverse;
 }
 
 /// Vectors of the iteration, kept so that steps allocate nothing.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -182,8 +181,8 @@ const Signal& owner_of_state(const model::Model& model, Eigen::Index state) {
   return *owner;
 }
 
-/// 1 − e ∂ẋ/∂x by differences, factorised. @return false if it is singular or not a number
-bool form_tangent(Evaluation& at, double e, SignalValues& s) {
+/// 1 − e ∂ẋ/∂x by differences, factorised.
+void form_tangent(Evaluation& at, double e, SignalValues& s) {
   const Eigen::Index n = s.x.size();
   at.evaluate(s.x, s.x_dot);
   s.tangent.setIdentity(n, n);
@@ -196,21 +195,17 @@ bool form_tangent(Evaluation& at, double e, SignalValues& s) {
     s.tangent.col(k) -= (e / d) * (s.rates - s.x_dot);
     s.x[k] = kept;
   }
-  return s.factor.factorise(s.tangent);
+  s.factor.compute(s.tangent);
 }
 
 /// x⁺ = fixed + e ẋ⁺(x⁺) by Newton's method with a tangent by differences, formed again where it
 /// does not lead on: limits bend rates.
 void solve_states(const model::Model& model, Evaluation& at, double e, SignalValues& s) {
-  bool is_solvable = form_tangent(at, e, s);
+  form_tangent(at, e, s);
   double before = HUGE_VAL;
   for (int iteration = 0;; ++iteration) {
-    s.open = s.fixed + e * s.x_dot - s.x;
-    if (is_solvable) {
-      s.factor.solve_in_place(s.open);
-    } else {
-      s.open.setConstant(std::numeric_limits<double>::quiet_NaN());
-    }
+    s.right = s.fixed + e * s.x_dot - s.x;
+    s.open = s.factor.solve(s.right);
     s.x += s.open;
     at.evaluate(s.x, s.x_dot);
     Eigen::Index worst = 0;
@@ -219,7 +214,7 @@ void solve_states(const model::Model& model, Evaluation& at, double e, SignalVal
     if (change <= kSettled * scale) return;
     const bool is_slow = change > 0.3 * before;
     if (is_slow && change <= kRounding * scale) return;
-    if (is_slow && std::isfinite(change)) is_solvable = form_tangent(at, e, s);
+    if (is_slow && std::isfinite(change)) form_tangent(at, e, s);
     before = change;
     if (iteration < kMostIterations && std::isfinite(change)) continue;
     const Signal& signal = owner_of_state(model, worst);

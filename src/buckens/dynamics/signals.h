@@ -3,9 +3,10 @@
 
 #include <vector>
 
+#include <Eigen/LU>
+
 #include "buckens/dynamics/circumstances.h"
 #include "buckens/dynamics/system_kinematics.h"
-#include "buckens/linalg/small_lu.h"
 
 namespace buckens::dynamics {
 
@@ -13,9 +14,9 @@ namespace buckens::dynamics {
 struct SignalValues {
   std::vector<double> values;  ///< t, then one per signal
   linalg::Vector x, x_dot;     ///< states of all blocks and their rates
-  linalg::Vector fixed, open, rates, known, method_rates;
+  linalg::Vector fixed, open, rates, known, method_rates, right;
   Eigen::MatrixXd tangent;
-  linalg::SmallLu factor;
+  Eigen::PartialPivLU<Eigen::MatrixXd> factor;
 };
 
 /// What one joint coordinate is taken to be more than it is: for tangents.

@@ -4,9 +4,8 @@
 #include <span>
 #include <vector>
 
-#include <Eigen/Geometry>
+#include <Eigen/Dense>
 
-#include "buckens/linalg/symmetric_eigen.h"
 #include "buckens/loads/contact.h"
 
 namespace buckens::loads {
@@ -42,13 +41,13 @@ Eigen::Matrix<double, 6, 2> directions(const Vector3d& lever, const Vector3d& no
 Vector6 resisted_motion(const std::vector<Share>& shares, const Vector6& wrench) {
   Matrix6 resistance = Matrix6::Zero();
   for (const Share& share : shares) resistance += share.load * share.J * share.J.transpose();
-  const linalg::SymmetricEigen own = linalg::symmetric_eigen(resistance);
-  const double least = kUnheld * own.values.maxCoeff();
+  const Eigen::SelfAdjointEigenSolver<Matrix6> own(resistance);
+  const double least = kUnheld * own.eigenvalues().maxCoeff();
   Vector6 out = Vector6::Zero();
   for (int k = 0; k < 6; ++k) {
-    if (!(own.values[k] > least)) continue;
-    const Vector6 v = own.vectors.col(k);
-    out += v * (v.dot(wrench) / own.values[k]);
+    if (!(own.eigenvalues()[k] > least)) continue;
+    const Vector6 v = own.eigenvectors().col(k);
+    out += v * (v.dot(wrench) / own.eigenvalues()[k]);
   }
   return out;
 }

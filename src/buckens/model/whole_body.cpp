@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/model/whole_body.h"
 
+#include <Eigen/SVD>
+
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
-#include "buckens/spatial/principal_axes.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::model {
@@ -15,16 +16,10 @@ namespace {
 
 /// The rotation nearest to B in the sense of least squares.
 Matrix3d nearest_rotation(const Matrix3d& B) {
-  // B = U Σ Vᵀ, and U Vᵀ is nearest. Directions of the two largest singular values determine the
-  // third of both.
-  const Matrix3d V = spatial::principal_axes(B.transpose() * B).vectors;
-  Matrix3d from, to;
-  from << V.col(2), V.col(1), V.col(2).cross(V.col(1));
-  to.col(0) = (B * from.col(0)).normalized();
-  const Vector3d second = B * from.col(1);
-  to.col(1) = (second - to.col(0).dot(second) * to.col(0)).normalized();
-  to.col(2) = to.col(0).cross(to.col(1));
-  return to * from.transpose();
+  const Eigen::JacobiSVD<Matrix3d> svd(B, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Matrix3d sign = Matrix3d::Identity();
+  sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+  return svd.matrixU() * sign * svd.matrixV().transpose();
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include <Eigen/SparseLU>
 #include <fmt/format.h>
 
-#include "buckens/linalg/sparse_lu.h"
 #include "buckens/stepping/cone_impulse.h"
 #include "buckens/stepping/cone_rounds.h"
 #include "buckens/stepping/step_failure.h"
@@ -154,11 +154,9 @@ class ManyPlaces {
       before = left;
       linalg::SparseMatrix A(b_.size(), b_.size());
       A.setFromTriplets(entries_.begin(), entries_.end());
-      linalg::SparseLu factor(A);
-      if (!factor.factorise(A)) return false;
-      Vector step = F_;
-      factor.solve_in_place(step);
-      P -= step;
+      Eigen::SparseLU<linalg::SparseMatrix> factor(A);
+      if (factor.info() != Eigen::Success) return false;
+      P -= factor.solve(F_);
     }
     return false;
   }

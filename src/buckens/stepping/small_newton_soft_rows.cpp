@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "buckens/linalg/small_inverse.h"
 #include "buckens/stepping/small_newton.h"
 #include "buckens/stepping/step_failure.h"
 
@@ -107,8 +106,7 @@ void SmallNewton::add_slopes_of_mixes() {
     // f = R f̂ as f = f̂ + W f, with W = 1 − R⁻¹ of an R that is not quite singular.
     loads::RowMix R = soft_.mixes[m];
     R.diagonal().array() += kOwnShare;
-    loads::RowMix& inverse = inverse_mixes_.emplace_back(R.rows(), R.cols());
-    linalg::small_inverse(R, inverse);
+    const loads::RowMix& inverse = inverse_mixes_.emplace_back(R.inverse());
     const int first = soft_.first_of_mix[m], count = static_cast<int>(R.rows());
     for (int i = 0; i < count; ++i) {
       mix_of_row_[static_cast<std::size_t>(first + i)] = static_cast<int>(m);

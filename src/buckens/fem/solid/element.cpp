@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include "buckens/fem/element/quadrature.h"
 #include "buckens/fem/solid/gradient_stiffness.h"
-#include "buckens/linalg/dense_cholesky.h"
 
 namespace buckens::fem {
 
@@ -146,21 +146,6 @@ SolidStiffness full_stiffness(SolidKind kind, const NodeVectors& x, const Elasti
   return K;
 }
 
-/// X ← L⁻¹ X with A = L Lᵀ, whose lower triangle is used up. Both are stored by rows.
-template <std::size_t rows, std::size_t columns>
-void solve_lower_in_place(std::array<std::array<double, rows>, rows>& A,
-                          std::array<std::array<double, columns>, rows>& X) {
-  for (std::size_t k = 0; k < rows; ++k) {
-    const double pivot = std::sqrt(A[k][k]);
-    for (double& x : X[k]) x /= pivot;
-    for (std::size_t i = k + 1; i < rows; ++i) A[i][k] /= pivot;
-    for (std::size_t i = k + 1; i < rows; ++i) {
-      for (std::size_t j = k + 1; j <= i; ++j) A[i][j] -= A[i][k] * A[j][k];
-      for (std::size_t j = 0; j < columns; ++j) X[i][j] -= A[i][k] * X[k][j];
-    }
-  }
-}
-
 /// The three inner functions count behind the nodes, until they are condensed out.
 SolidStiffness incompatible_stiffness(const NodeVectors& x, const Elasticity& D) {
   constexpr int kNodes = 8, kInner = 3;
@@ -180,20 +165,14 @@ SolidStiffness incompatible_stiffness(const NodeVectors& x, const Elasticity& D)
     sum.add(gradients, point.weight * volume, D);
   }
   SolidStiffness K(3 * kNodes, 3 * kNodes);
+  Eigen::Matrix<double, 3 * kInner, 3 * kNodes> mixed;
+  Eigen::Matrix<double, 3 * kInner, 3 * kInner> inner;
   copy_block(sum, 0, 0, K);
-  constexpr std::size_t kOuterRows = 3 * kNodes, kInnerRows = 3 * kInner;
-  std::array<std::array<double, kInnerRows>, kInnerRows> inner;
-  std::array<std::array<double, kOuterRows>, kInnerRows> mixed;
-  for (std::size_t k = 0; k < kInnerRows; ++k) {
-    for (std::size_t j = 0; j < kInnerRows; ++j) inner[k][j] = sum(kOuterRows + k, kOuterRows + j);
-    for (std::size_t j = 0; j < kOuterRows; ++j) mixed[k][j] = sum(kOuterRows + k, j);
-  }
-  solve_lower_in_place(inner, mixed);
-  for (const auto& half : mixed) {
-    const Eigen::Map<const Eigen::Matrix<double, 3 * kNodes, 1>> h(half.data());
-    for (int j = 0; j < 3 * kNodes; ++j) K.col(j) -= h[j] * h;
-  }
-  return K;
+  copy_block(sum, 3 * kNodes, 0, mixed);
+  copy_block(sum, 3 * kNodes, 3 * kNodes, inner);
+  const Eigen::Matrix<double, 3 * kInner, 3 * kNodes> half = inner.llt().matrixL().solve(mixed);
+  K.noalias() -= half.transpose() * half;
+  return 0.5 * (K + K.transpose());
 }
 
 }  // namespace
@@ -210,7 +189,7 @@ double solid_least_volume(SolidKind kind, const NodeVectors& x) {
   const double in_mass = least_volume(mass_rule(kind), x);
   // Points near a corner may be outside as long as every motion keeps a positive mass.
   const bool has_mass =
-      in_mass > 0.0 || linalg::DenseCholesky(solid_volume_products(kind, x)).is_positive_definite();
+      in_mass > 0.0 || solid_volume_products(kind, x).llt().info() == Eigen::Success;
   return has_mass ? in_stiffness : in_mass;
 }
 

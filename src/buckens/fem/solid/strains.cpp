@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <map>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include "buckens/fem/solid/block.h"
 #include "buckens/fem/solid/element.h"
-#include "buckens/linalg/dense_cholesky.h"
 #include "buckens/spatial/principal_axes.h"
 
 namespace buckens::fem {
@@ -178,7 +178,7 @@ SolidStrains::InnerProducts SolidStrains::inner_inverse(const Element& element) 
     }
     sum.noalias() += volume * G.transpose() * D * G;
   }
-  return linalg::DenseCholesky(sum).solve(linalg::Matrix(InnerProducts::Identity()));
+  return sum.llt().solve(InnerProducts::Identity());
 }
 
 /// Fixed sizes let the compiler unroll.

@@ -7,9 +7,7 @@
 #include <utility>
 
 #include <Eigen/Geometry>
-
-#include "buckens/linalg/pivoted_qr.h"
-#include "buckens/linalg/small_lu.h"
+#include <Eigen/LU>
 
 namespace buckens::mesh_io {
 
@@ -53,16 +51,17 @@ bool add_led_components(const std::vector<NodeComponent>& leads,
   double unit = 0;  // of length, so that rotations and translations are alike
   for (const NodeComponent& lead : leads) unit = std::max(unit, (place(lead) - origin).norm());
   if (unit == 0) unit = 1;
-  linalg::Matrix G(6, 6);
+  Eigen::Matrix<double, 6, 6> G;
   for (std::size_t k = 0; k < leads.size(); ++k) {
     const ComponentRow row = row_of_component(leads[k], (place(leads[k]) - origin) / unit);
     G.row(static_cast<Eigen::Index>(k)) = row;
   }
-  const linalg::Matrix of_leads = G.transpose();
-  if (linalg::PivotedQr(of_leads, kNoPivot).rank() < 6) return false;
+  Eigen::FullPivLU<Eigen::Matrix<double, 6, 6>> lu(G.transpose());
+  lu.setThreshold(kNoPivot);
+  if (!lu.isInvertible()) return false;
   for (const NodeComponent& follower : followers) {
     const ComponentRow row = row_of_component(follower, (place(follower) - origin) / unit);
-    const linalg::Vector factors = linalg::general_solution(of_leads, row.transpose());
+    const Eigen::Matrix<double, 6, 1> factors = lu.solve(row.transpose());
     fem::ImportedEquation equation;
     equation.line = line;
     add_component_terms(follower, 1.0, equation);
