@@ -142,17 +142,14 @@ void Travel::add_force(const Vector3d& force, Forces& out) const {
 }
 
 double Travel::bias(const joints::ConstraintRow& constraint, double t) const {
-  const double out = bias_along(row(constraint, t).e);
-  return constraint.number() == 2 ? out - constraint.driven_acceleration(t, drive()) : out;
-}
-
-double Travel::bias_along(const Vector3d& e) const {
+  const Row own = row(constraint, t);
   const double s_dot = rate();
   const Vector3d of_slider = evaluate_bias(model_, joint_.second, motions_).a;
   const Vector3d of_beam = at_.bias(evaluate_bias(model_, node(at_.element), motions_),
                                     evaluate_bias(model_, node(at_.element + 1), motions_));
-  return e.dot(of_slider - of_beam - 2.0 * s_dot * at_.tangent_rate() -
-               s_dot * s_dot * at_.curvature);
+  const double out = own.e.dot(of_slider - of_beam - 2.0 * s_dot * at_.tangent_rate() -
+                               s_dot * s_dot * at_.curvature);
+  return constraint.number() == 2 ? out - constraint.driven_acceleration(t, drive()) : out;
 }
 
 const model::Joint* slider_of(const model::Model& model, const model::Coordinate& coordinate) {

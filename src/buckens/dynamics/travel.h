@@ -63,11 +63,8 @@ class Travel {
   void add_force(const Eigen::Vector3d& force, Forces& out) const;
   /// Part of g̈ without accelerations of coordinates.
   double bias(const joints::ConstraintRow& constraint, double t) const;
-  /// The same of the displacement along the beam.
-  double coordinate_bias() const { return bias_along(along()); }
 
  private:
-  double bias_along(const Eigen::Vector3d& e) const;
   const model::MarkerId& node(std::size_t k) const { return joint_.track->nodes[k]; }
   /// States of the row along the beam, behind those of the place; may be null.
   const double* drive() const { return states_ == nullptr ? nullptr : states_ + 2; }

@@ -129,7 +129,9 @@ bool JointFriction::slide_on(const FrictionBound& bound, const Sight& sight,
   const double load = bound.load(sight);
   const double held = data.static_coefficient * load + data.preload;
   const double most = bound.at(load, rate);
-  if (!(x * rate > 0.0) || !(std::abs(x) * held > most * data.slip)) return false;
+  // Without a bound the sign of its zero force would tell the regime.
+  const bool is_pushed = x * rate > 0.0 && most > 0.0;
+  if (!is_pushed || !(std::abs(x) * held > most * data.slip)) return false;
   const double kept = most == held ? data.slip : data.slip * (most / held);
   out.force = -std::copysign(most, rate) - data.viscous * rate;
   out.strain = std::copysign(kept, rate);

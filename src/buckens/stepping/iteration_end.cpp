@@ -20,6 +20,7 @@ constexpr double kLeftOfChange = 1e-15;
 // What rounding of positions leaves open, relative to the model's length, or to the distance from
 // the origin where that is more.
 constexpr double kRounding = 1e-15;
+// Nothing is left to another round below so many of these.
 constexpr double kManyRoundings = 100.0;
 // A change that no longer falls is rounding if it is below this share of the model's length, or of
 // what the rounding of positions may turn: joints close to it only, and a body that is held by a
@@ -58,7 +59,7 @@ bool IterationEnd::is_settled(const Change& change, const Change& before, double
 
 bool IterationEnd::is_near(const Change& change, double before) const {
   if (!(change.size < kSlow * before)) return false;
-  // What rounding leaves no other round closes better.
+  // No other round closes better what rounding leaves.
   const double left = near_ * change.motion;
   if (left < kManyRoundings * kRounding * rounding_length_) return false;
   return change.size * (change.size / before) <= left;

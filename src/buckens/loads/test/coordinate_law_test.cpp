@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/loads/coordinate_law.h"
 
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -143,12 +144,15 @@ TEST(JointFriction, SticksElasticallyAndSlidesByItsBound) {
 
 TEST(JointFriction, AnswersAtLessCostWhereItSlidesOn) {
   FrictionData data = pin();
-  data.dynamic_coefficient = 0.2;
-  data.stribeck_rate = 0.4;
+  data.stribeck_rate = 0.1;
   data.viscous = 0.1;
   data.inertia = 0.5;
-  for (const double static_coefficient : {0.2, 0.3}) {
+  // The last slides without a bound: from 30 Stribeck rates on, its coefficient is zero.
+  for (const auto& [static_coefficient, dynamic, preload] :
+       {std::array{0.2, 0.2, 2.0}, std::array{0.3, 0.2, 2.0}, std::array{0.3, 0.0, 0.0}}) {
     data.static_coefficient = static_coefficient;
+    data.dynamic_coefficient = dynamic;
+    data.preload = preload;
     const JointFriction friction(data, Vector3d::UnitX());
     Sled sled;
     for (const double change : {-3e-3, -1.1e-3, -4e-4, 0.0, 9e-4, 1.3e-3, 0.2}) {

@@ -233,7 +233,9 @@ struct SpringTorqueSensor {
       "torque of a torsional-spring or bushing: of a torsional spring about its axis, positive if "
       "it turns the second marker back from a positive angle; of a bushing three components in "
       "the axes of its first marker, with the same sign; of a hinge-spring, hinge-stop or "
-      "hinge-friction the torque opposing the angle of its joint";
+      "hinge-friction the torque opposing the angle of its joint; of ball-friction three "
+      "components "
+      "in the axes of the first marker of its joint, which oppose the rotation of the second";
   std::string spring;
 
   template <class Visitor>
