@@ -375,3 +375,53 @@ def test_messages_say_what_is_wrong(buckens, tmp_path, name):
     assert result.code in (2, 3), result.out + result.err
     for word in words:
         assert word in result.err, result.err
+
+
+RAIL = """
+buckens: 1
+PLANE
+gravity: [0, -9.81, 0]
+materials: {steel: {E: 200 GPa, nu: 0.3, rho: 7850 kg/m^3}}
+bodies:
+  rail: {beam: {to: [2, 0, 0], elements: 12, section: {circle: {diameter: 80 mm}}, material: steel}FRAMES}
+  trolley: {rigid: {mass: 2 kg, inertia: [1, 1, 1]}, at: {position: [1.5, 0, 0]}}
+  weight: {rigid: {mass: 1 kg, inertia: [1, 1, 1]}, at: {position: [3, -1, 0]}}
+joints:
+  left: {fixed: {between: [ground, rail/start]}}
+  right: {point-on-line: {between: [{ground: [2, 0, 0]}, rail/end], axis: [1, 0, 0]}}
+  wheels: {slider-on-beam: {between: [rail, trolley]}}
+  shaft: {prismatic: {between: [{ground: [3, 0, 0]}, weight], axis: [0, -1, 0]}}
+  string: {coupler: {of: {wheels: 1, shaft: -1}}}
+initial: {START}
+simulation: {duration: 0.4 s, step: 1 ms}
+output:
+  every: 10 ms
+  fields: [interface-load]
+  sensors: {way: {joint-coordinate: wheels}, drop: {joint-coordinate: shaft}, tension: {joint-force: string}, total: {energy: total},
+            balance: {energy: balance}, place: {position: trolley}}
+"""
+
+
+@pytest.mark.parametrize("frames", ["", ", frames: 3"])
+@pytest.mark.parametrize("plane", ["", "planar: xy"])
+def test_a_string_pulls_a_trolley_along_a_flexible_rail(sensors, frames, plane):
+    """A weight on a string over an edge: x'' = m g/(m + M) on a straight rail, which bends by hundredths of a millimetre."""
+    out = sensors(RAIL.replace("FRAMES", frames).replace("PLANE", plane).replace("initial: {START}\n", ""))
+    assert numpy.abs(out["way.value"] - out["drop.value"]).max() < 1e-12
+    assert numpy.abs(out["way.rate"] - out["drop.rate"]).max() < 1e-9
+    a = G / 3
+    # The trolley climbs out of the sag: 2 kg over some 0.1 mm, of 2.6 J; a rail of 30 mm, which sags by seven times as much, takes 2.7e-3.
+    assert out["way.value"][-1] == pytest.approx(0.5 * a * 0.4**2, rel=1e-3)
+    # The trolley is pulled by M a, and the work of both weights closes the account.
+    assert out["tension.x"][20:].mean() == pytest.approx(2 * a, rel=5e-3)
+    assert numpy.abs(out["balance"]).max() < 1e-3 * 0.5 * 3 * (a * 0.4) ** 2
+
+
+def test_a_trolley_hangs_in_balance_on_a_sloping_rail(sensors):
+    """Half of the trolley's mass on the string holds it on a slope of 30 degrees, and it stays where it is."""
+    text = (RAIL.replace("FRAMES", "").replace("PLANE", "").replace("START", "start: static")
+            .replace("gravity: [0, -9.81, 0]", f"gravity: [{-G / 2!r}, {-G * math.sqrt(0.75)!r}, 0]")
+            .replace("axis: [0, -1, 0]}}", f"axis: [-0.5, {-math.sqrt(0.75)!r}, 0]}}}}"))
+    out = sensors(text)
+    assert numpy.abs(out["way.rate"]).max() < 1e-8
+    assert out["tension.x"] == pytest.approx(G, rel=1e-3)

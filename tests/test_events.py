@@ -265,18 +265,3 @@ def test_events_that_set_each_other_off_are_named(buckens, tmp_path):
     (tmp_path / "model.yaml").write_text(ball(
         "  side: {setting: 1}\n  sense: \"side*low\"\n", "  flip: {when: sense, set: {side: \"-side\"}}\n"))
     buckens("run", "model.yaml", "-o", "out").must(4, "event \"flip\"", "\"sense\" chatters")
-
-
-def test_a_lock_on_a_flexible_rail_is_refused(buckens, tmp_path):
-    (tmp_path / "model.yaml").write_text("""
-buckens: 1
-materials: {steel: {E: 200 GPa, nu: 0.3, rho: 7870 kg/m^3}}
-bodies:
-  rail: {beam: {to: [1, 0, 0], elements: 4, section: {circle: {diameter: 20 mm}}, material: steel}}
-  bead: {rigid: {mass: 0.3 kg, inertia: [1e-3, 1e-3, 1e-3]}, at: {position: [0.1, 0, 0]}}
-joints: {root: {fixed: {between: [ground, rail/start]}}, hole: {slider-on-beam: {between: [rail, bead]}}}
-signals: {s: {joint-displacement: hole}}
-events: {catch: {when: s, lock: hole}}
-simulation: {duration: 0.1 s, step: 1 ms}
-""")
-    buckens("check", "model.yaml").must(3, "joint \"hole\" slides along a beam", "slide-spring")

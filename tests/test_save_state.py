@@ -178,6 +178,30 @@ simulation: {duration: 0.4 s, step: 1 ms, STEP}
 output: {every: 7 ms, sensors: {way: {joint-coordinate: hole}, hole: {joint-force: hole}, disc: {position: disc}}}
 """
 
+# A slider that bounces between rigid stops on a flexible rail, rubs without slip, is locked and set free, and pulls a sled.
+BUFFERS = """buckens: 1
+gravity: [0, 0, -9.81]
+materials: {steel: {E: 200 GPa, nu: 0.3, rho: 7870 kg/m^3, damping: {stiffness: 1e-5 s}}}
+bodies:
+  rail: {beam: {to: [1, 0.2, -0.1], elements: 10, section: {circle: {diameter: 20 mm}}, material: steel}, ROD}
+  bead: {rigid: {mass: 0.3 kg, inertia: [1e-3, 1e-3, 1e-3]}, at: {position: [0.1, 0.02, -0.01]}}
+  sled: {rigid: {mass: 0.1 kg, inertia: [1e-3, 1e-3, 1e-3]}, at: {position: [0, 1, 0]}}
+joints:
+  root: {fixed: {between: [ground, rail/start]}}
+  hole: {slider-on-beam: {between: [rail, bead]}}
+  way: {prismatic: {between: [ground, sled], axis: [1, 0, 0]}}
+  string: {coupler: {of: {hole: 1, way: -1}}}
+signals: {early: "t - 0.101", late: "t - 0.153"}
+events: {catch: {when: early, lock: hole}, free: {when: late, unlock: hole}}
+loads:
+  spring: {slide-spring: {joint: hole, stiffness: 400 N/m, displacement: 0.3 m}}
+  ends: {slide-stop: {joint: hole, from: -50 mm, to: 0.2 m, restitution: 0.5}}
+  rub: {slide-friction: {joint: hole, static: 0.2, stick: rigid}}
+initial: {joints: {hole: {velocity: 1}}}
+simulation: {duration: 0.3 s, step: 1 ms, STEP}
+output: {every: 7 ms, sensors: {way: {joint-coordinate: hole}, hole: {joint-force: hole}, ends: {spring-force: ends}, lost: {energy: dissipated}}}
+"""
+
 # A bead that is driven around a closed spline, one that a spring pulls over laps and a stop throws back, a puck and a ball joint.
 COORDINATES = """buckens: 1
 gravity: [0, 0, -9.81]
@@ -380,6 +404,9 @@ CASES = {
     "meshing, step control": (model(MESHING, step="tolerance: 1e-4"), 0.1501),
     "a slider and a wheel": (model(SLIDER), 0.2),
     "a slider and a wheel, newmark": (model(SLIDER, step="method: newmark"), 0.2),
+    "rigid rows along a rail": (model(BUFFERS), 0.051),
+    "rigid rows along a rail, locked": (model(BUFFERS, "frames: 3"), 0.12),
+    "rigid rows along a rail, hht": (model(BUFFERS, step="method: hht"), 0.2),
     "coordinates by name": (model(COORDINATES), 0.3),
     "coordinates by name, hht": (model(COORDINATES, step="method: hht"), 0.3),
     "coordinates by name, step control": (model(COORDINATES, step="tolerance: 1e-4"), 0.3),

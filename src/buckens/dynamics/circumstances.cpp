@@ -120,25 +120,15 @@ joints::CountedValue counted_coordinate(const model::Model& model, std::size_t c
   return law.follow(expected, law.fraction(first, second, &expected));
 }
 
-JointWrenches wrenches_of(const model::Model& model, const model::Joint& joint, double t,
-                          const model::RowMemory* memory, const linalg::Vector& lambda,
-                          const spatial::MarkerMotion& first, const spatial::MarkerMotion& second,
-                          std::size_t coupled) {
+JointWrenches wrenches_of(const model::Joint& joint, double t, const model::RowMemory* memory,
+                          const linalg::Vector& lambda, const spatial::MarkerMotion& first,
+                          const spatial::MarkerMotion& second) {
   spatial::PairRow sum = spatial::PairRow::Zero();
-  if (!joint.coupled.empty()) {
-    const model::CoupledCoordinate& own = joint.coupled[coupled];
-    const auto index = static_cast<std::size_t>(own.coordinate);
-    const double value = counted_coordinate(model, index, t, memory, first, second).value();
-    sum = lambda[joint.first_row] * own.term.slope(value) *
-          model.coordinates[index].law.derivatives(first, second, before_of(memory, index));
-  } else {
-    const double* states = states_of(joint, memory);
-    for (std::size_t k = 0; k < joint.rows.size(); ++k) {
-      const joints::ConstraintRow& row = joint.rows[k];
-      sum +=
-          lambda[joint.first_row + static_cast<int>(k)] * row.evaluate(first, second, t, states).J;
-      if (states != nullptr) states += row.num_states();
-    }
+  const double* states = states_of(joint, memory);
+  for (std::size_t k = 0; k < joint.rows.size(); ++k) {
+    const joints::ConstraintRow& row = joint.rows[k];
+    sum += lambda[joint.first_row + static_cast<int>(k)] * row.evaluate(first, second, t, states).J;
+    if (states != nullptr) states += row.num_states();
   }
   JointWrenches out;
   out.on_first = {sum.segment<3>(0).transpose(), sum.segment<3>(3).transpose()};
@@ -188,7 +178,7 @@ loads::Sight sight_of(const model::Model& model, std::size_t load, double t,
                                          around.memory, first, second);
   }
   if (own.joint >= 0 && travel == nullptr && has_reaction) {
-    sight.reaction = wrenches_of(model, model.joints[static_cast<std::size_t>(own.joint)], t,
+    sight.reaction = wrenches_of(model.joints[static_cast<std::size_t>(own.joint)], t,
                                  around.memory, *around.lambda, first, second)
                          .on_second;
   }

@@ -72,15 +72,14 @@ loads::CoordinateMotion coordinate_motion(const model::Model& model, std::size_t
                                           const spatial::MarkerMotion& second,
                                           joints::CountedValue* now = nullptr);
 
-/// What a joint does to its two markers, a coupler to those of one of its coordinates.
-/// @param first,second motions of these markers, @param coupled which coordinate of a coupler
+/// What a joint between two markers does to them, see SummedCoordinate for couplers.
+/// @param first,second motions of these markers
 struct JointWrenches {
   spatial::Wrench on_first, on_second;
 };
-JointWrenches wrenches_of(const model::Model& model, const model::Joint& joint, double t,
-                          const model::RowMemory* memory, const linalg::Vector& lambda,
-                          const spatial::MarkerMotion& first, const spatial::MarkerMotion& second,
-                          std::size_t coupled = 0);
+JointWrenches wrenches_of(const model::Joint& joint, double t, const model::RowMemory* memory,
+                          const linalg::Vector& lambda, const spatial::MarkerMotion& first,
+                          const spatial::MarkerMotion& second);
 
 class Travel;
 

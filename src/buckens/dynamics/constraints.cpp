@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "buckens/dynamics/circumstances.h"
-#include "buckens/dynamics/travel.h"
+#include "buckens/dynamics/summed_coordinate.h"
 
 namespace buckens::dynamics {
 
@@ -26,28 +26,13 @@ void evaluate_coupler(const model::Model& model, const model::Joint& joint,
   joints::CouplerSum sum;
   double rate = 0.0;
   SystemRow row;
-  for (std::size_t k = 0; k < joint.coupled.size(); ++k) {
-    const auto index = static_cast<std::size_t>(joint.coupled[k].coordinate);
-    const model::Coordinate& coordinate = model.coordinates[index];
-    const model::Joint& owner = model.joints[static_cast<std::size_t>(coordinate.joint)];
-    const auto first = evaluate_marker(model, owner.first, motions);
-    const auto second = evaluate_marker(model, owner.second, motions);
-    const joints::CountedValue value =
-        counted_coordinate(model, index, t, memory, first.motion, second.motion);
-    const joints::CoordinateTerm& term = joint.coupled[k].term;
-    sum.add(term, value);
-    const spatial::PairRow J =
-        term.slope(value.value()) *
-        coordinate.law.derivatives(first.motion, second.motion, before_of(memory, index));
-    rate += J.dot(twists(first.motion, second.motion));
-    const SystemRow share = system_row(model, owner.first, first, owner.second, second, J);
-    if (k == 0) {
-      row.first = share.first;
-      row.second = share.second;
-    } else {
-      row.more.push_back(share.first);
-      row.more.push_back(share.second);
-    }
+  size_coupler_row(model, joint, row);
+  std::size_t part = 0;
+  for (const model::CoupledCoordinate& coupled : joint.coupled) {
+    const SummedCoordinate own(model, coupled, motions, t, memory);
+    sum.add(coupled.term, own.value());
+    rate += own.rate();
+    own.derive(row, part);
   }
   const joints::ConstraintRow& drive = joint.rows.front();
   const double* const states = states_of(joint, memory);
@@ -91,18 +76,7 @@ double coupler_bias(const model::Model& model, const model::Joint& joint,
                     const model::RowMemory* memory) {
   double out = -joint.rows.front().driven_acceleration(t, states_of(joint, memory));
   for (const model::CoupledCoordinate& coupled : joint.coupled) {
-    const auto index = static_cast<std::size_t>(coupled.coordinate);
-    const model::Coordinate& coordinate = model.coordinates[index];
-    const model::Joint& owner = model.joints[static_cast<std::size_t>(coordinate.joint)];
-    const spatial::MarkerMotion F = evaluate_marker(model, owner.first, motions).motion;
-    const spatial::MarkerMotion M = evaluate_marker(model, owner.second, motions).motion;
-    const double value = counted_coordinate(model, index, t, memory, F, M).value();
-    const joints::CountedValue* const before = before_of(memory, index);
-    const double rate = coordinate.law.derivatives(F, M, before).dot(twists(F, M));
-    out += coupled.term.slope(value) *
-               coordinate.law.bias(F, M, evaluate_bias(model, owner.first, motions),
-                                   evaluate_bias(model, owner.second, motions), before) +
-           coupled.term.curvature(value) * rate * rate;
+    out += SummedCoordinate(model, coupled, motions, t, memory).bias();
   }
   return out;
 }

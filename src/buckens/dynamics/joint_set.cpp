@@ -3,6 +3,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/dynamics/citing.h"
+#include "buckens/dynamics/summed_coordinate.h"
 #include "buckens/dynamics/travel.h"
 #include "buckens/spatial/rotation.h"
 
@@ -74,7 +75,8 @@ JointSet::JointSet(const model::Model& model)
       const auto index = static_cast<std::size_t>(coupled.coordinate);
       const model::Joint& owner =
           model.joints[static_cast<std::size_t>(model.coordinates[index].joint)];
-      coupled_.push_back({end_of(owner.first), end_of(owner.second), index, &coupled.term});
+      coupled_.push_back({end_of(owner.first), end_of(owner.second), index, &coupled.term,
+                          owner.track ? &coupled : nullptr});
     }
     int state = joint.first_state;
     for (const joints::ConstraintRow& row : joint.rows) {
@@ -164,6 +166,13 @@ void JointSet::evaluate_coupler(const Joint& joint, const std::vector<BodyMotion
   double rate = 0.0;
   for (std::size_t k = 0; k < joint.num_coupled; ++k) {
     const Coupled& own = coupled_[joint.coupled + k];
+    if (own.slider != nullptr) {
+      const SummedCoordinate slider(model_, *own.slider, motions, t, memory);
+      sum.add(*own.term, slider.value());
+      rate += slider.rate();
+      if (forces != nullptr) slider.add_forces(multiplier, *forces);
+      continue;
+    }
     const Motion F = motion_of(own.first, motions);
     const Motion M = motion_of(own.second, motions);
     const spatial::MarkerMotion first = F.marker(own.first);
@@ -207,9 +216,15 @@ void JointSet::evaluate_slider(const model::Joint& joint, const std::vector<Body
 
 void JointSet::derive_coupler(const Joint& joint, const std::vector<BodyMotion>& motions, double t,
                               const model::RowMemory* memory, SystemRow& out) const {
-  out.more.resize(2 * joint.num_coupled - 2);
+  const auto index = static_cast<std::size_t>(&joint - joints_.data());
+  size_coupler_row(model_, model_.joints[index], out);
+  std::size_t part = 0;
   for (std::size_t k = 0; k < joint.num_coupled; ++k) {
     const Coupled& own = coupled_[joint.coupled + k];
+    if (own.slider != nullptr) {
+      SummedCoordinate(model_, *own.slider, motions, t, memory).derive(out, part);
+      continue;
+    }
     const Motion F = motion_of(own.first, motions);
     const Motion M = motion_of(own.second, motions);
     const spatial::MarkerMotion first = F.marker(own.first);
@@ -220,9 +235,9 @@ void JointSet::derive_coupler(const Joint& joint, const std::vector<BodyMotion>&
         own.term->slope(value) * model_.coordinates[own.coordinate].law.derivatives(
                                      first, second, before_of(memory, own.coordinate));
     derive(own.first, F, {J.segment<3>(0).transpose(), J.segment<3>(3).transpose()},
-           out.part(2 * k));
+           out.part(part++));
     derive(own.second, M, {J.segment<3>(6).transpose(), J.segment<3>(9).transpose()},
-           out.part(2 * k + 1));
+           out.part(part++));
   }
 }
 
@@ -325,7 +340,6 @@ void JointSet::derive_held(std::size_t joint, const std::vector<BodyMotion>& mot
                            std::array<SystemRow, kMostRows>& out) const {
   const Joint& own = joints_[joint];
   if (own.num_coupled > 0) {
-    out[0].travelling = -1;
     return derive_coupler(own, motions, t, memory, out[0]);
   }
   if (own.slider != nullptr) {

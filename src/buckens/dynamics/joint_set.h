@@ -99,6 +99,7 @@ class JointSet {
     End first, second;
     std::size_t coordinate;
     const joints::CoordinateTerm* term;
+    const model::CoupledCoordinate* slider;  // on a beam, null: another
   };
   struct Law {
     std::size_t load;

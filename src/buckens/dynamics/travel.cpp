@@ -118,7 +118,7 @@ void Travel::derive(const Row& row, int number, SystemRow& out) const {
                           joint_.second, slider_, on_slider)
                    .second;
   // Two shares for every body: first, and all behind second.
-  out.more.resize(2 * bodies.size() - 1);
+  out.more.resize(num_parts(joint_) - 2);
   const auto share = [&out](std::size_t k) -> BodyRow& {
     return k == 0 ? out.first : out.more[k - 1];
   };
@@ -142,14 +142,17 @@ void Travel::add_force(const Vector3d& force, Forces& out) const {
 }
 
 double Travel::bias(const joints::ConstraintRow& constraint, double t) const {
-  const Row own = row(constraint, t);
+  const double out = bias_along(row(constraint, t).e);
+  return constraint.number() == 2 ? out - constraint.driven_acceleration(t, drive()) : out;
+}
+
+double Travel::bias_along(const Vector3d& e) const {
   const double s_dot = rate();
   const Vector3d of_slider = evaluate_bias(model_, joint_.second, motions_).a;
   const Vector3d of_beam = at_.bias(evaluate_bias(model_, node(at_.element), motions_),
                                     evaluate_bias(model_, node(at_.element + 1), motions_));
-  const double out = own.e.dot(of_slider - of_beam - 2.0 * s_dot * at_.tangent_rate() -
-                               s_dot * s_dot * at_.curvature);
-  return constraint.number() == 2 ? out - constraint.driven_acceleration(t, drive()) : out;
+  return e.dot(of_slider - of_beam - 2.0 * s_dot * at_.tangent_rate() -
+               s_dot * s_dot * at_.curvature);
 }
 
 const model::Joint* slider_of(const model::Model& model, const model::Coordinate& coordinate) {

@@ -55,6 +55,10 @@ class Travel {
   Row row(const joints::ConstraintRow& row, double t) const;
   /// ġ of such a row.
   double rate_of(const Row& row) const;
+  /// Number of shares of its rows.
+  static std::size_t num_parts(const model::Joint& joint) {
+    return 2 * joint.track->bodies.size() + 1;
+  }
   /// Its shares. Their bodies are always the same, their marker rows are those of the nodes beside
   /// the slider; of other parts of a divided beam the shares are zero.
   /// @param number of the row among those that travel, the same in every evaluation
@@ -63,8 +67,11 @@ class Travel {
   void add_force(const Eigen::Vector3d& force, Forces& out) const;
   /// Part of g̈ without accelerations of coordinates.
   double bias(const joints::ConstraintRow& constraint, double t) const;
+  /// The same of the displacement along the beam.
+  double coordinate_bias() const { return bias_along(along()); }
 
  private:
+  double bias_along(const Eigen::Vector3d& e) const;
   const model::MarkerId& node(std::size_t k) const { return joint_.track->nodes[k]; }
   /// States of the row along the beam, behind those of the place; may be null.
   const double* drive() const { return states_ == nullptr ? nullptr : states_ + 2; }

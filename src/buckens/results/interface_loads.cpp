@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "buckens/dynamics/forces.h"
-#include "buckens/dynamics/travel.h"
+#include "buckens/dynamics/summed_coordinate.h"
 
 namespace buckens::results {
 
@@ -39,7 +39,7 @@ InterfaceLoads::InterfaceLoads(const model::Model& model, const model::FieldPlac
     for (std::size_t c = 0; c < std::max<std::size_t>(joint.coupled.size(), 1); ++c) {
       const model::Joint& owner = markers_of(joint, c);
       // The beam under a slider has no place with a name.
-      if (!joint.track) add_side(owner.first, {k, true, Side::first, c});
+      if (!owner.track) add_side(owner.first, {k, true, Side::first, c});
       add_side(owner.second, {k, true, Side::second, c});
     }
   }
@@ -111,10 +111,15 @@ Wrench InterfaceLoads::wrench_of(const Share& share, const model::State& state,
     if (joint.track) {
       return dynamics::Travel(model_, joint, motions, &state.memory).reaction(state.t, lambda);
     }
-    const model::Joint& owner = markers_of(joint, share.coupled);
-    const dynamics::JointWrenches both =
-        dynamics::wrenches_of(model_, joint, state.t, &state.memory, lambda, motion(owner.first),
-                              motion(owner.second), share.coupled);
+    if (!joint.coupled.empty()) {
+      const dynamics::JointWrenches both =
+          dynamics::SummedCoordinate(model_, joint.coupled[share.coupled], motions, state.t,
+                                     &state.memory)
+              .wrenches(lambda[joint.first_row]);
+      return is_first ? both.on_first : both.on_second;
+    }
+    const dynamics::JointWrenches both = dynamics::wrenches_of(
+        joint, state.t, &state.memory, lambda, motion(joint.first), motion(joint.second));
     return is_first ? both.on_first : both.on_second;
   }
   const model::Load& load = model_.loads[share.index];

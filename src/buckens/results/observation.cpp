@@ -2,7 +2,7 @@
 #include "buckens/results/observation.h"
 
 #include "buckens/dynamics/circumstances.h"
-#include "buckens/dynamics/travel.h"
+#include "buckens/dynamics/summed_coordinate.h"
 
 namespace buckens::results {
 
@@ -19,9 +19,14 @@ std::vector<spatial::Wrench> joint_wrenches(const model::Model& model,
       out.push_back(dynamics::Travel(model, joint, motions, &memory).reaction(t, lambda));
       continue;
     }
+    if (!joint.coupled.empty()) {
+      const dynamics::SummedCoordinate own(model, joint.coupled.front(), motions, t, &memory);
+      out.push_back(own.wrenches(lambda[joint.first_row]).on_second);
+      continue;
+    }
     const auto first = dynamics::evaluate_marker(model, joint.first, motions).motion;
     const auto second = dynamics::evaluate_marker(model, joint.second, motions).motion;
-    out.push_back(dynamics::wrenches_of(model, joint, t, &memory, lambda, first, second).on_second);
+    out.push_back(dynamics::wrenches_of(joint, t, &memory, lambda, first, second).on_second);
   }
   return out;
 }

@@ -23,7 +23,7 @@ constexpr double kMostGiven = 1.25;
 double Impacts::rate_of(const dynamics::SystemRow& row,
                         const std::vector<dynamics::BodyMotion>& motions) {
   double sum = 0;
-  for (const dynamics::BodyRow* part : {&row.first, &row.second}) {
+  for (const dynamics::BodyRow* part : row.parts()) {
     if (part->body != model::kGround)
       sum += part->rate(motions[static_cast<std::size_t>(part->body)]);
   }

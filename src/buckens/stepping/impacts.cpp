@@ -9,6 +9,7 @@
 
 #include "buckens/dynamics/mass_metric.h"
 #include "buckens/dynamics/model_scales.h"
+#include "buckens/dynamics/travel.h"
 #include "buckens/stepping/friction_impulses.h"
 #include "buckens/stepping/gap_of_step.h"
 #include "buckens/stepping/mesh_partners.h"
@@ -99,10 +100,8 @@ namespace {
 loads::CoordinateMotion motion_of(const model::Model& model, const model::Load& load,
                                   const std::vector<dynamics::BodyMotion>& motions, double t,
                                   const model::RowMemory& memory) {
-  const auto first = dynamics::evaluate_marker(model, load.first, motions);
-  const auto second = dynamics::evaluate_marker(model, load.second, motions);
   return dynamics::coordinate_motion(model, static_cast<std::size_t>(load.coordinate), t, &memory,
-                                     first.motion, second.motion);
+                                     motions);
 }
 
 }  // namespace
@@ -269,10 +268,8 @@ bool Impacts::look(std::size_t index, const dynamics::Circumstances& around,
   const Law& law = laws_[index];
   const model::Load& load = model_.loads[law.load];
   if (around.memory != nullptr && around.memory->is_off(law.load)) return false;
-  const auto first = dynamics::evaluate_marker(model_, load.first, motions);
-  const auto second = dynamics::evaluate_marker(model_, load.second, motions);
-  const loads::Sight sight =
-      dynamics::sight_of(model_, law.load, t, around, first.motion, second.motion);
+  const dynamics::LoadEnds ends = dynamics::ends_of(model_, load, motions, around.memory);
+  const loads::Sight sight = dynamics::sight_of(model_, law.load, t, around, ends);
   const double fastest = std::max(std::abs(law.start.rate), std::abs(sight.coordinate.rate));
   require_same_space(load, fastest, scheme_.h);
   loads::RigidLaw::Contact contact = law.law->contact(sight.coordinate.value);
@@ -321,15 +318,15 @@ void Impacts::set_row(std::size_t index, double sign,
                       const model::RowMemory* memory, Push& push) const {
   const model::Load& load = model_.loads[index];
   const auto coordinate = static_cast<std::size_t>(load.coordinate);
-  const auto first = dynamics::evaluate_marker(model_, load.first, motions);
-  const auto second = dynamics::evaluate_marker(model_, load.second, motions);
+  const dynamics::LoadEnds ends = dynamics::ends_of(model_, load, motions, memory);
   const joints::JointCoordinate& law = model_.coordinates[coordinate].law;
-  push.row = dynamics::system_row(
-      model_, load.first, first, load.second, second,
-      law.derivatives(first.motion, second.motion, dynamics::before_of(memory, coordinate)));
-  for (dynamics::BodyRow* part : {&push.row.first, &push.row.second}) {
-    part->frame *= sign;
-    part->interface *= sign;
+  const spatial::PairRow J = ends.travel ? ends.travel->coordinate(coordinate, memory).J
+                                         : law.derivatives(ends.first.motion, ends.second.motion,
+                                                           dynamics::before_of(memory, coordinate));
+  dynamics::row_of(model_, load, ends, J, push.row);
+  for (std::size_t k = 0; k < push.row.num_parts(); ++k) {
+    push.row.part(k).frame *= sign;
+    push.row.part(k).interface *= sign;
   }
 }
 
@@ -390,10 +387,8 @@ void Impacts::find_holding(const std::vector<dynamics::BodyMotion>& motions,
   for (const std::size_t k : holds_) {
     const model::Load& load = model_.loads[k];
     if (around.memory != nullptr && around.memory->is_off(k)) continue;
-    const auto first = dynamics::evaluate_marker(model_, load.first, motions);
-    const auto second = dynamics::evaluate_marker(model_, load.second, motions);
-    const loads::Sight sight =
-        dynamics::sight_of(model_, k, t, around, first.motion, second.motion);
+    const dynamics::LoadEnds ends = dynamics::ends_of(model_, load, motions, around.memory);
+    const loads::Sight sight = dynamics::sight_of(model_, k, t, around, ends);
     const auto& law = static_cast<const loads::RigidLaw&>(*load.element);
     if (!law.withstands_impacts(sight)) continue;
     Push push;

@@ -47,8 +47,8 @@ void add_unit(const dynamics::BodyRow& part, dynamics::BodyResponse& load) {
 
 void PushAnswers::answer(Push& push) const {
   push.bodies.clear();
-  if (joints_) return answer_with_joints(push);
-  for (const dynamics::BodyRow* part : {&push.row.first, &push.row.second}) {
+  if (joints_ || !push.row.more.empty()) return answer_all(push);
+  for (const dynamics::BodyRow* part : push.row.parts()) {
     if (part->body == model::kGround) continue;
     const auto b = static_cast<std::size_t>(part->body);
     dynamics::BodyResponse load;
@@ -75,26 +75,28 @@ PushedBody PushAnswers::move(std::size_t b, dynamics::BodyResponse load) const {
   return out;
 }
 
-void PushAnswers::answer_with_joints(Push& push) const {
+void PushAnswers::answer_all(Push& push) const {
   const std::size_t count = model_.bodies.size();
   std::vector<dynamics::BodyResponse> loads(count), of_joints(count);
   for (std::size_t b = 0; b < count; ++b) {
     loads[b].interface_load.setZero(model_.bodies[b].num_interface_rows());
     of_joints[b].interface_load = loads[b].interface_load;
   }
-  for (const dynamics::BodyRow* part : {&push.row.first, &push.row.second}) {
+  for (const dynamics::BodyRow* part : push.row.parts()) {
     if (part->body != model::kGround) add_unit(*part, loads[static_cast<std::size_t>(part->body)]);
   }
   std::vector<PushedBody> moved;
   for (std::size_t b = 0; b < count; ++b) moved.push_back(move(b, loads[b]));
-  Vector X;
-  joints_->test_rows().changes(X, [&](int b) {
-    const PushedBody& own = moved[static_cast<std::size_t>(b)];
-    return dynamics::Displacement{&own.u, &own.y};
-  });
-  X = -X;
-  joints_->solve_in_place(X);
-  joints_->gather(X, of_joints);
+  if (joints_) {
+    Vector X;
+    joints_->test_rows().changes(X, [&](int b) {
+      const PushedBody& own = moved[static_cast<std::size_t>(b)];
+      return dynamics::Displacement{&own.u, &own.y};
+    });
+    X = -X;
+    joints_->solve_in_place(X);
+    joints_->gather(X, of_joints);
+  }
   for (std::size_t b = 0; b < count; ++b) {
     loads[b].frame_load += of_joints[b].frame_load;
     loads[b].interface_load += of_joints[b].interface_load;
@@ -106,7 +108,7 @@ void PushAnswers::answer_with_joints(Push& push) const {
 
 double PushAnswers::along(const dynamics::SystemRow& row, const Push& push) {
   double sum = 0;
-  for (const dynamics::BodyRow* part : {&row.first, &row.second}) {
+  for (const dynamics::BodyRow* part : row.parts()) {
     if (part->body == model::kGround) continue;
     const auto b = static_cast<std::size_t>(part->body);
     const auto found =
@@ -126,7 +128,7 @@ linalg::SparseMatrix PushAnswers::along_all(const std::vector<const Push*>& push
   std::vector<std::vector<Eigen::Index>> rows_of(count);  // per body
   for (Eigen::Index i = 0; i < n; ++i) {
     const dynamics::SystemRow& row = pushes[static_cast<std::size_t>(i)]->row;
-    for (const dynamics::BodyRow* part : {&row.first, &row.second}) {
+    for (const dynamics::BodyRow* part : row.parts()) {
       const auto b = static_cast<std::size_t>(part->body);
       if (part->body != model::kGround && b < count) rows_of[b].push_back(i);
     }

@@ -47,7 +47,8 @@ class PushAnswers {
   static linalg::SparseMatrix along_all(const std::vector<const Push*>& pushes);
 
  private:
-  void answer_with_joints(Push& push) const;
+  /// With the joints, if any, and for rows with any number of shares.
+  void answer_all(Push& push) const;
   /// Response of one body to a load.
   PushedBody move(std::size_t b, dynamics::BodyResponse load) const;
 

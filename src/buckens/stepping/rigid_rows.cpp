@@ -162,7 +162,7 @@ bool factorise_closed_rows(dynamics::MultiplierCondensation& condensation,
 double own_compliance(const dynamics::SystemRow& row,
                       const std::vector<dynamics::BodyCompliance>& compliance) {
   double sum = 0;
-  for (const dynamics::BodyRow* part : {&row.first, &row.second}) {
+  for (const dynamics::BodyRow* part : row.parts()) {
     if (part->body == model::kGround) continue;
     const dynamics::BodyCompliance& body = compliance[static_cast<std::size_t>(part->body)];
     sum += part->frame * body.frame * part->frame.transpose();

@@ -138,11 +138,11 @@ class Accelerations {
   }
 
   double bias_of(const model::Load& load, const std::vector<dynamics::BodyMotion>& motions) const {
-    const auto first = dynamics::evaluate_marker(model_, load.first, motions);
-    const auto second = dynamics::evaluate_marker(model_, load.second, motions);
+    const dynamics::LoadEnds ends = dynamics::ends_of(model_, load, motions, &state_.memory);
+    if (ends.travel) return ends.travel->coordinate_bias();
     const auto coordinate = static_cast<std::size_t>(load.coordinate);
     return model_.coordinates[coordinate].law.bias(
-        first.motion, second.motion, dynamics::evaluate_bias(model_, load.first, motions),
+        ends.first.motion, ends.second.motion, dynamics::evaluate_bias(model_, load.first, motions),
         dynamics::evaluate_bias(model_, load.second, motions),
         dynamics::before_of(&state_.memory, coordinate));
   }

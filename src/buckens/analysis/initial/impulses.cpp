@@ -62,7 +62,7 @@ void Impulses::place(const model::State& state, const std::vector<int>& rows_in_
 void Impulses::add_rigid_row(const dynamics::SystemRow& row) {
   give_.push_back(stepping::kRigidGive * stepping::own_compliance(row, compliance_));
   double rate = 0;
-  for (const dynamics::BodyRow* part : {&row.first, &row.second}) {
+  for (const dynamics::BodyRow* part : row.parts()) {
     if (part->body != model::kGround) {
       rate += part->rate(motions_[static_cast<std::size_t>(part->body)]);
     }

@@ -4,8 +4,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
-#include "buckens/dynamics/circumstances.h"
-#include "buckens/dynamics/system_kinematics.h"
+#include "buckens/dynamics/travel.h"
 #include "buckens/loads/rigid_law.h"
 
 namespace buckens::analysis {
@@ -22,10 +21,7 @@ void refuse_beyond_stops(const model::Model& model, const model::State& state) {
     if (load.rigid_row < 0) continue;
     const auto coordinate = static_cast<std::size_t>(load.coordinate);
     const double value =
-        dynamics::coordinate_motion(model, coordinate, state.t, nullptr,
-                                    dynamics::evaluate_marker(model, load.first, motions).motion,
-                                    dynamics::evaluate_marker(model, load.second, motions).motion)
-            .value;
+        dynamics::coordinate_motion(model, coordinate, state.t, nullptr, motions).value;
     const auto* law = static_cast<const loads::RigidLaw*>(load.element.get());
     const bool is_angle = model.coordinates[coordinate].law.is_angle();
     const auto contact = law->contact(value);

@@ -58,7 +58,8 @@ class CoupledRow {
     const Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(index)];
     const Joint& owner = model.joints[static_cast<std::size_t>(coordinate.joint)];
     const bool turns = coordinate.law.is_angle();
-    find_.require_moment(owner.first, what_, where_);
+    // A force along a beam acts at its nodes.
+    if (!owner.track) find_.require_moment(owner.first, what_, where_);
     if (turns) find_.require_moment(owner.second, what_, where_);
     if (joint_.coupled.empty()) {
       joint_.first = owner.first;

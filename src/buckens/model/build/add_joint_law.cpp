@@ -100,12 +100,6 @@ class JointLawBuilder {
     load.coordinate = index;
     load.joint = coordinate.joint;
     load.element = make(kind, coordinate);
-    if (joint.track && load.element->is_rigid()) {
-      throw ModelError(spec_.where,
-                       fmt::format("{}: loads along a beam cannot be rigid; give a stop a "
-                                   "`stiffness`, and remove `stick: rigid` from friction",
-                                   what));
-    }
     model.loads.push_back(std::move(load));
   }
 
@@ -254,7 +248,7 @@ bool is_joint_law(const loads::LoadSpec& spec) {
       spec.kind);
 }
 
-void add_lock(const joints::JointSpec& joint, const EventSpec& event, MarkerFinder& find) {
+void add_lock(const joints::JointSpec& joint, MarkerFinder& find) {
   Model& model = find.model();
   const int owner = find_joint(model, joint.name);
   const std::size_t count =
@@ -267,12 +261,6 @@ void add_lock(const joints::JointSpec& joint, const EventSpec& event, MarkerFind
     if (type == joints::JointType::rolling && which != base::CoordinateChoice::angle) continue;
     const int index = find_coordinate(joint.name, which, base::CoordinateSort::any, find);
     const Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(index)];
-    if (model.joints[static_cast<std::size_t>(coordinate.joint)].track) {
-      throw ModelError(event.where,
-                       fmt::format("event \"{}\": joint \"{}\" slides along a beam, where it "
-                                   "cannot be locked; switch a stiff `slide-spring` on instead",
-                                   event.name, joint.name));
-    }
     const bool is_known =
         std::any_of(model.loads.begin(), model.loads.end(), [&](const Load& load) {
           return load.coordinate == index && load.kind == loads::CoordinateLock::kKind;
@@ -284,6 +272,9 @@ void add_lock(const joints::JointSpec& joint, const EventSpec& event, MarkerFind
     load.first = coordinate.first;
     load.second = coordinate.second;
     load.coordinate = index;
+    // Its first marker is the point of the beam where the slider is.
+    if (model.joints[static_cast<std::size_t>(coordinate.joint)].track)
+      load.joint = coordinate.joint;
     load.element = std::make_shared<loads::CoordinateLock>();
     model.loads.push_back(std::move(load));
   }

@@ -20,8 +20,7 @@ bool is_joint_law(const loads::LoadSpec& spec);
 void add_joint_law(const loads::LoadSpec& spec, MarkerFinder& find, double length);
 
 /// Adds what holds the coordinates of a joint that events lock, free at the start.
-/// @throws ModelError naming the event, if rows cannot hold them rigidly
-void add_lock(const joints::JointSpec& joint, const EventSpec& event, MarkerFinder& find);
+void add_lock(const joints::JointSpec& joint, MarkerFinder& find);
 
 /// Index into Model::coordinates of a coordinate of a joint, added if missing.
 /// @param asked `which` of the model file, none: the one that is meant by its sort

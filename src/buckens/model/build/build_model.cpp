@@ -97,7 +97,7 @@ class Builder {
     }
     for (const EventSpec& event : d.events) {
       for (const std::string& joint : event.lock) {
-        add_lock(*base::find_named(d.joints, joint), event, find);
+        add_lock(*base::find_named(d.joints, joint), find);
       }
     }
     require_common_carriers(model_);

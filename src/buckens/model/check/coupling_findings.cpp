@@ -102,12 +102,6 @@ Found term_problem(const joints::CouplerTermSpec& term, const ModelDescription& 
     return Finding{"", fmt::format("unknown joint \"{}\".{}", term.name,
                                    base::suggestion(term.name, names_of(model.joints)))};
   }
-  const auto* joint = base::find_named(model.joints, term.name);
-  if (std::holds_alternative<joints::SliderOnBeamSpec>(joint->kind)) {
-    return Finding{"", fmt::format("joint \"{}\" is a slider-on-beam, whose displacement cannot be "
-                                   "coupled; couple the joint that moves the slider",
-                                   term.name)};
-  }
   return coordinate_problem({term.name, term.which, base::CoordinateSort::any, ""}, model);
 }
 
