@@ -2,18 +2,18 @@
 file(GLOB cli_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/apps/cli/*.cpp")
 if(cli_sources)
   # Objects of their own, which need not wait until the library is joined.
-  add_library(buckens_program_objects OBJECT ${cli_sources})
+  add_library(buckens_cli OBJECT ${cli_sources})
   if(BUCKENS_UNITY)
     # In one piece: the templates of CLI11 are most of it.
-    buckens_make_pieces(buckens_program_objects "${PROJECT_SOURCE_DIR}/apps" 0)
+    buckens_make_pieces(buckens_cli "${PROJECT_SOURCE_DIR}/apps" 0)
   endif()
   # Without optimisation, which takes half as long: what computes is the library.
-  target_compile_options(buckens_program_objects PRIVATE $<$<CONFIG:Release>:-O0>)
-  target_include_directories(buckens_program_objects PRIVATE "${PROJECT_SOURCE_DIR}/apps")
+  target_compile_options(buckens_cli PRIVATE $<$<CONFIG:Release>:-O0>)
+  target_include_directories(buckens_cli PRIVATE "${PROJECT_SOURCE_DIR}/apps")
   set(cli_libraries CLI11::CLI11 spdlog::spdlog nlohmann_json::nlohmann_json Threads::Threads
                     Cairo::Cairo Httplib::Httplib)
-  target_link_libraries(buckens_program_objects PRIVATE buckens_common HDF5Serial::C ${cli_libraries})
-  add_executable(buckens_program $<TARGET_OBJECTS:buckens_program_objects>)
+  target_link_libraries(buckens_cli PRIVATE buckens_common HDF5Serial::C ${cli_libraries})
+  add_executable(buckens_program $<TARGET_OBJECTS:buckens_cli>)
   set_target_properties(buckens_program PROPERTIES OUTPUT_NAME buckens LINKER_LANGUAGE CXX)
   target_link_libraries(buckens_program PRIVATE buckens buckens_options ${cli_libraries})
   buckens_link_library_first(buckens_program buckens)
