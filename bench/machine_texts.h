@@ -25,6 +25,32 @@ loads:
 )model";
 }
 
+/// A trolley between rigid stops on a flexible rail, with friction that sticks rigidly, pulls a
+/// sled by a string; another one lies at its stop.
+inline std::string trolleys_on_a_rail() {
+  return R"model(buckens: 1
+gravity: [0, -9.81, 0]
+materials: {steel: {E: 200 GPa, nu: 0.3, rho: 7850 kg/m^3, damping: {stiffness: 1e-5 s}}}
+bodies:
+  rail: {beam: {to: [2, 0.2, 0], elements: 10, section: {circle: {diameter: 30 mm}}, material: steel}, frames: 2}
+  trolley: {rigid: {mass: 0.5 kg, inertia: [1, 1, 1]}, at: {position: [0.5, 0.05, 0]}}
+  parked: {rigid: {mass: 0.5 kg, inertia: [1, 1, 1]}, at: {position: [0.3, 0.03, 0]}}
+  sled: {rigid: {mass: 0.2 kg, inertia: [1, 1, 1]}, at: {position: [0, 1, 0]}}
+joints:
+  root: {fixed: {between: [ground, rail/start]}}
+  tip: {point-on-line: {between: [{ground: [2, 0.2, 0]}, rail/end], axis: [1, 0.1, 0]}}
+  wheels: {slider-on-beam: {between: [rail, trolley]}}
+  hole: {slider-on-beam: {between: [rail, parked]}}
+  way: {prismatic: {between: [ground, sled], axis: [1, 0, 0]}}
+  string: {coupler: {of: {wheels: 1, way: -1}}}
+loads:
+  ends: {slide-stop: {joint: wheels, from: -0.1 m, to: 1 m, restitution: 0.5}}
+  rub: {slide-friction: {joint: wheels, static: 0.1, stick: rigid}}
+  rest: {slide-stop: {joint: hole, from: 0 m, restitution: 0}}
+initial: {joints: {wheels: {velocity: 1}}}
+)model";
+}
+
 /// Two boxes and a ball on a rigid plane with friction: one box slides, one stands, the ball rolls.
 inline std::string rigid_contacts() {
   return R"model(buckens: 1

@@ -77,6 +77,8 @@ std::vector<Case> cases() {
       {"contacts of many bodies", [] { return buckens::bench::start(rolling_balls(), kStep); }});
   out.push_back({"rigid stops, friction and ropes",
                  [] { return buckens::bench::start(rigid_stops_and_ropes(), kStep); }});
+  out.push_back(
+      {"trolleys on a rail", [] { return buckens::bench::start(trolleys_on_a_rail(), kStep); }});
   out.push_back({"rigid contacts with friction",
                  [] { return buckens::bench::start(rigid_contacts(), kStep); }});
   out.push_back({"surface of a solid on a plane",

@@ -91,13 +91,16 @@ void SmallNewton::use(const dynamics::Circumstances& around) {
   around_.stands = &rigid_.stands();
 }
 
-dynamics::SystemRow SmallNewton::with_shapes(dynamics::SystemRow row, double share) const {
-  for (std::size_t k = 0; k < row.num_parts(); ++k) {
-    dynamics::BodyRow& part = row.part(k);
+const dynamics::SystemRow& SmallNewton::with_shapes(const dynamics::SystemRow& row,
+                                                    double share) const {
+  thread_local dynamics::SystemRow out;  // keeps its room
+  out = row;
+  for (std::size_t k = 0; k < out.num_parts(); ++k) {
+    dynamics::BodyRow& part = out.part(k);
     if (part.body == model::kGround) continue;
     if (shares_[static_cast<std::size_t>(part.body)].is_quasi_static()) part.interface *= share;
   }
-  return row;
+  return out;
 }
 
 bool SmallNewton::corrects_positions() const {

@@ -130,11 +130,12 @@ class SmallNewton {
   /// changing quasi-static shape must not jolt the mechanism, Δλ ~ m w Δy/h.
   void keep_shapes_in_rates(const std::vector<BodyStep>& bodies, double t_end);
   /// A joint row for closing velocities: excludes deformation without rates.
-  dynamics::SystemRow without_rates(const dynamics::SystemRow& row) const {
+  const dynamics::SystemRow& without_rates(const dynamics::SystemRow& row) const {
     return with_shapes(row, 0.0);
   }
   /// A row that a share of such deformation moves: that of the spring in a spring with damper.
-  dynamics::SystemRow with_shapes(dynamics::SystemRow row, double share) const;
+  /// Good until the next call.
+  const dynamics::SystemRow& with_shapes(const dynamics::SystemRow& row, double share) const;
   bool corrects_positions() const;
   /// Bodies and marker rows of everything to be condensed: rows in use, then the soft ones.
   std::vector<dynamics::SystemRow> row_pattern(double t);
