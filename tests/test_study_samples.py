@@ -105,6 +105,12 @@ def test_statistics_and_main_effects(tmp_path):
     assert told.deviation == pytest.approx(1 / np.sqrt(12), rel=1e-3) and told.quantiles[0.95] == pytest.approx(0.95, abs=1e-3)
     with pytest.raises(buckens.InputError, match="no variant has a result"):
         study.statistics([np.nan])
+    assert told.mean_error == pytest.approx(told.deviation / np.sqrt(2000), rel=1e-12)
+    # A single value tells nothing of how values spread; equal ones do.
+    single = study.statistics([3.0, np.nan])
+    assert single.num_values == 1 and single.mean == single.quantiles[0.05] == 3.0
+    assert np.isnan(single.deviation) and np.isnan(single.mean_error)
+    assert study.statistics([3.0, 3.0])[1:4] == (3.0, 0.0, 0.0)
     values = samples.values[:, 0] ** 2
     effects = study.main_effects(samples, values, bins=10)
     # The mean of a^2 over a range of width h about m is m^2 + h^2/12.

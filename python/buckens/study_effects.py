@@ -65,8 +65,8 @@ class Statistics(NamedTuple):
 
     num_values: int     # of successful variants
     mean: float
-    deviation: float    # standard deviation
-    mean_error: float   # standard error of the mean for independent samples
+    deviation: float    # standard deviation; NaN for a single value
+    mean_error: float   # standard error of the mean for independent samples; NaN for a single value
     quantiles: Dict[float, float]
 
 
@@ -81,7 +81,7 @@ def statistics(values: Any, quantiles: Sequence[float] = (0.05, 0.25, 0.5, 0.75,
         Between 0 and 1.
     """
     good = _good(np.asarray(values, dtype=np.float64))
-    deviation = float(np.std(good, ddof=1)) if len(good) > 1 else 0.0
+    deviation = float(np.std(good, ddof=1)) if len(good) > 1 else float("nan")
     return Statistics(len(good), float(np.mean(good)), deviation, deviation / float(np.sqrt(len(good))),
                       {share: float(np.quantile(good, share)) for share in quantiles})
 
