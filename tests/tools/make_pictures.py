@@ -5,11 +5,12 @@
     tests/tools/make_pictures.py [--program build/release/bin/buckens] [--out docs/pictures] [NAME...]
 
 NAME: pictures by the beginning of their names; without one all of them (some minutes). Needs node, Chromium and the npm
-packages of viewer/; the drawings besides need python3-numpy, those of the snap-through python3-matplotlib.
+packages of viewer/; the drawings and the Python example besides need python3-numpy, those of the snap-through python3-matplotlib.
 """
 
 import argparse
 import dataclasses
+import os
 import pathlib
 import subprocess
 import sys
@@ -17,6 +18,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CRANK = "examples/slider_crank/slider_crank.yaml"
+LEVELS = "examples/planar_levels/pendulum.yaml"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -30,6 +32,7 @@ class Picture:
     view: tuple = ()  # arguments of viewer/scripts/screenshot.mjs
     size: tuple = (1280, 800)
     fixture: str = ""  # a synthetic page of viewer/tests/fixture.mjs in place of runs
+    script: str = ""  # in Python, which gets a run directory, in place of runs
 
 
 @dataclasses.dataclass(frozen=True)
@@ -73,6 +76,20 @@ PICTURES = (
     Picture("pressurised_piston", (("run", "examples/pressurised_piston/pressurised_piston.yaml"),), time=0.3),
     Picture("spinning_body", (("run", "examples/spinning_body/spinning_body.yaml"),), time=0.3),
     Picture("block_pendulum", (("run", "examples/block_pendulum/block_pendulum.yaml"),), time=0.3),
+    Picture("pendulum", (("run", "examples/pendulum/pendulum.yaml"),), time=0.2),
+    Picture("door", (("run", "examples/door/door.yaml"),), time=0.12),
+    Picture("two_link_arm", (("run", "examples/two_link_arm/two_link_arm.yaml"),), time=0.55, view=("--press", "+") * 2),
+    Picture("rotating_beam", (("run", "examples/rotating_beam/rotating_beam.yaml"),), time=0.04, view=("--scale", "50")),
+    Picture("large_bend", (("run", "examples/large_bend/large_bend.yaml"),), time=0.3),
+    Picture("planar_levels", (("run", LEVELS), ("run", LEVELS, "--set", "bodies.beam.coupling=none")),
+            folders=("full", "none"), time=0.48),
+    # A quarter of the period of the third mode, of twice the frequency of the first that the page begins with.
+    Picture("tuning_fork", (("modes", "examples/tuning_fork/tuning_fork.yaml", "--system", "--count", "6"),), time=0.125,
+            view=("--click", "text=system 3")),
+    Picture("snap_through", (("run", "examples/snap_through/snap_through.yaml", "--set", "parameters.rate=5000 N/s",
+                              "--set", "parameters.n=2"),), time=0.72),
+    Picture("snap_through_bending", (("static", "examples/snap_through_bending/snap_through_bending.yaml"),), time=0.1),
+    Picture("python", script="examples/python/flexible_arm.py", time=0.1, view=("--scale", "15")),
     Picture("page_side_by_side", (("run", CRANK), ("run", CRANK, "--set", "bodies.rod.beam.elements=4")),
             folders=("fine", "coarse"), time=0.055),
     Picture("page_dark", fixture="large", time=0.22,
@@ -95,8 +112,9 @@ DRAWINGS = (
 )
 
 
-def call(*arguments):
-    subprocess.run([str(argument) for argument in arguments], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+def call(*arguments, **environment):
+    subprocess.run([str(argument) for argument in arguments], cwd=ROOT, check=True, stdout=subprocess.DEVNULL,
+                   env={**os.environ, **environment})
 
 
 def page_of(picture, program, folder):
@@ -106,7 +124,11 @@ def page_of(picture, program, folder):
         call("node", "viewer/tests/fixture.mjs", page, picture.fixture)
         return page
     directories = []
-    for name, (verb, model, *options) in zip(picture.folders, picture.runs, strict=True):
+    if picture.script:
+        directories.append(folder / "out")
+        module = program.parents[1] / "python"
+        call(sys.executable, picture.script, directories[-1], PYTHONPATH=str(module), BUCKENS_PROGRAM=str(program))
+    for name, (verb, model, *options) in zip(picture.folders if picture.runs else (), picture.runs, strict=True):
         directories.append(folder / name)
         call(program, verb, model, *options, "-o", directories[-1])
     call(program, "view", *directories, "-o", page)
