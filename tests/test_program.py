@@ -97,6 +97,35 @@ def test_wrong_command_line(buckens, arguments, words):
     assert error["file"] is None and error["line"] is None and error["column"] is None
 
 
+def limited(limit, *arguments, threads=None):
+    environment = {name: value for name, value in os.environ.items() if name != "OMP_NUM_THREADS"}
+    if threads:
+        environment["OMP_NUM_THREADS"] = str(threads)
+    return subprocess.run(["sh", "-c", f"ulimit {limit}; exec \"$@\"", "sh", PROGRAM, *map(str, arguments)], capture_output=True, text=True,
+                          timeout=60, check=False, stdin=subprocess.DEVNULL, env=environment)
+
+
+@pytest.mark.parametrize("threads", [1, None])
+@pytest.mark.parametrize("limit", ["-v 200000", "-d 100000"])
+def test_too_little_memory_for_the_libraries_is_told(limit, threads):
+    """OpenBLAS asks again and again for what it does not get before the program begins: it hung."""
+    for arguments in (["version"], ["run", "nowhere.yaml", "--json"]):
+        told = limited(limit, *arguments, threads=threads)
+        assert told.returncode == 4
+        assert told.stderr.startswith("buckens: error: not enough memory: OpenBLAS") and "ulimit -v" in told.stderr
+        assert threads or os.cpu_count() == 1 or "OMP_NUM_THREADS=1" in told.stderr
+    error = json.loads(told.stdout)["error"]
+    assert error["kind"] == "memory" and f"buckens: error: {error['message']}\n" == told.stderr
+    assert set(error) == {"kind", "message", "file", "line", "column"}
+
+
+@pytest.mark.parametrize("threads", [1, None])
+def test_the_memory_that_is_told_is_enough(models, tmp_path, threads):
+    least = re.search(r"at least (\d+) kB", limited("-v 200000", "version", threads=threads).stderr)[1]
+    told = limited(f"-v {least}", "run", models / "pendulum.yaml", "-o", tmp_path / "out", "-q", threads=threads)
+    assert told.returncode == 0, told.stderr
+
+
 def test_full_disk_behind_the_standard_output(buckens):
     with open("/dev/full", "w") as full:
         buckens("schema", stdout=full).must(5, "standard output", "No space left")
