@@ -115,6 +115,12 @@ def test_unknown_options_of_petsc_are_named(buckens):
     # Without a norm no solve iterated at all; with another one it ended anywhere.
     ("-ksp_norm_type none", ["energy norm", "-ksp_norm_type"]),
     ("-ksp_norm_type unpreconditioned", ["energy norm", "-ksp_norm_type"]),
+    # The error of the step decides, so these changed nothing.
+    ("-ksp_rtol 1e-3", ["-ksp_rtol would have no effect", "far below that of the step"]),
+    ("-KSP_RTOL 1e-3", ["-ksp_rtol would have no effect"]),
+    ("-pc_type jacobi -ksp_max_it 3", ["-ksp_max_it would have no effect"]),
+    ("-ksp_convergence_test skip", ["-ksp_convergence_test would have no effect"]),
+    ("-ksp_type preonly -pc_type cholesky -ksp_atol 1", ["-ksp_atol would have no effect"]),
     # PETSc reads only what has a dash.
     ("pc_type hypre", ["\"pc_type\" is neither an option"]),
     ("-pc_type jacobi pc_view", ["\"pc_view\" is neither an option"])])

@@ -58,6 +58,23 @@ PetscErrorCode refuse_words(const char* of_user) {
   PetscFunctionReturn(0);
 }
 
+PetscErrorCode refuse_ends(PetscOptions options) {
+  PetscFunctionBeginUser;
+  for (const char* name : {"-ksp_rtol", "-ksp_atol", "-ksp_divtol", "-ksp_max_it", "-ksp_min_it",
+                           "-ksp_convergence_test", "-ksp_converged_use_initial_residual_norm",
+                           "-ksp_converged_use_min_initial_residual_norm", "-ksp_converged_maxits",
+                           "-ksp_initial_guess_nonzero"}) {
+    PetscBool is_given = PETSC_FALSE;
+    PetscCall(PetscOptionsHasName(options, nullptr, name, &is_given));
+    if (is_given == PETSC_FALSE) continue;
+    set_error(std::string(name) +
+              " would have no effect: Buckens begins each iteration with an extrapolated motion "
+              "and ends it when its error is far below that of the step");
+    PetscFunctionReturn(PETSC_ERR_USER_INPUT);
+  }
+  PetscFunctionReturn(0);
+}
+
 PetscErrorCode refuse_unknown(const char* of_user, PetscOptions options) {
   PetscInt count = 0;
   char** names = nullptr;

@@ -12,6 +12,9 @@ PetscErrorCode set_options(const char* of_user, PetscOptions options);
 /// PETSc itself passes over words that belong to no option.
 PetscErrorCode refuse_words(const char* of_user);
 
+/// What would have no effect, because the program decides where an iteration begins and ends.
+PetscErrorCode refuse_ends(PetscOptions options);
+
 /// PETSc itself passes over options that nothing has asked for.
 PetscErrorCode refuse_unknown(const char* of_user, PetscOptions options);
 

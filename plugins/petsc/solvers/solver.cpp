@@ -216,6 +216,7 @@ PetscErrorCode make_solver(MPI_Comm comm, const Rows& rows, Solver& solver) {
   PetscCall(refuse_words(rows.options));
   PetscCall(PetscOptionsCreate(&solver.options));
   PetscCall(set_options(rows.options, solver.options));
+  PetscCall(refuse_ends(solver.options));
   // In place of those of the process.
   PetscCall(PetscOptionsPush(solver.options));
   const PetscErrorCode failure = make(comm, rows, solver);
