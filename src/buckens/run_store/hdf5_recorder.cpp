@@ -85,6 +85,11 @@ void Hdf5Recorder::take_earlier(const EarlierRows& earlier, bool has_fields) {
 void Hdf5Recorder::write(const results::Record& record) {
   const std::lock_guard lock(mutex_);
   rethrow_failure();
+  if (is_large(record)) {
+    flush_waiting();
+    guarded([&] { table_.append(file_, {&record.t, 1}, record.values); });
+    return rethrow_failure();
+  }
   note_age();
   times_.push_back(record.t);
   values_.insert(values_.end(), record.values.begin(), record.values.end());
@@ -97,6 +102,11 @@ void Hdf5Recorder::write(const results::Record& record) {
 void Hdf5Recorder::write_fields(const results::Record& fields) {
   const std::lock_guard lock(mutex_);
   rethrow_failure();
+  if (is_large(fields)) {
+    flush_waiting();  // the record of this instant, too
+    guarded([&] { fields_.append(file_, {&fields.t, 1}, fields.values); });
+    return rethrow_failure();
+  }
   note_age();
   field_times_.push_back(fields.t);
   field_values_.insert(field_values_.end(), fields.values.begin(), fields.values.end());
@@ -123,6 +133,10 @@ void Hdf5Recorder::flush() {
   rethrow_failure();
   flush_waiting();
   rethrow_failure();
+}
+
+bool Hdf5Recorder::is_large(const results::Record& record) const {
+  return record.values.size() * sizeof(double) > rule_.bytes_at_once;
 }
 
 void Hdf5Recorder::note_age() {

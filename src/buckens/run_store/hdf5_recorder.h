@@ -26,6 +26,9 @@ struct FlushRule {
   std::chrono::milliseconds age{500};
   /// More waiting bytes than this are written regardless of the number of records.
   std::size_t bytes = 16U << 20U;
+  /// A record of more bytes does not wait: it would be held once more, and again while it is
+  /// written.
+  std::size_t bytes_at_once = 1U << 20U;
 };
 
 /// Rows that stand in results.h5 before those of the run: each function passes them on.
@@ -73,6 +76,7 @@ class Hdf5Recorder {
 
  private:
   void take_earlier(const EarlierRows& earlier, bool has_fields);
+  bool is_large(const results::Record& record) const;
   void note_age();
   void flush_waiting();
   void guarded(const std::function<void()>& work);

@@ -11,10 +11,12 @@ namespace buckens::run_store {
 
 namespace {
 
-/// A small chunk cache: only the last chunk is ever needed again.
-Hdf5Handle table_settings(hsize_t chunk_values) {
+/// A small chunk cache: only the last chunk is ever needed again, and none that one row fills,
+/// which is written from where it is.
+Hdf5Handle table_settings(hsize_t chunk_values, std::size_t row_values) {
   Hdf5Handle settings(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
-  H5Pset_chunk_cache(settings.get(), 7, 2 * sizeof(double) * chunk_values, 1.0);
+  const std::size_t chunks = chunk_values > row_values ? 2 : 0;
+  H5Pset_chunk_cache(settings.get(), 7, chunks * sizeof(double) * chunk_values, 1.0);
   return settings;
 }
 
@@ -55,8 +57,9 @@ Hdf5Table::Column Hdf5Table::create_column(const Hdf5File& file, const results::
   const Hdf5Handle link(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(link.get(), 1);
   column.chunk_values = chunk[0] * column.size;
-  const hid_t id = H5Dcreate2(file.id(), column.path.c_str(), type, space.get(), link.get(),
-                              creation.get(), table_settings(column.chunk_values).get());
+  const hid_t id =
+      H5Dcreate2(file.id(), column.path.c_str(), type, space.get(), link.get(), creation.get(),
+                 table_settings(column.chunk_values, column.size).get());
   column.dataset = Hdf5Handle(file.check(id, "create " + column.path), H5Dclose);
 
   write_attribute(file, column.path, "unit", channel.unit);
@@ -90,6 +93,10 @@ void Hdf5Table::append(Hdf5File& file, std::span<const double> times,
   if (times.empty()) return;
   const Hdf5Quiet quiet;
   for (const Column& column : columns_) {
+    if (times.size() == 1) {
+      append_to(file, column, 1, values.data() + column.offset);
+      continue;
+    }
     block_.resize(times.size() * column.size);
     for (std::size_t row = 0; row < times.size(); ++row) {
       std::copy_n(values.data() + row * row_size_ + column.offset, column.size,
@@ -113,8 +120,8 @@ void Hdf5Table::close_for_now() {
 void Hdf5Table::open_again(const Hdf5File& file) {
   const Hdf5Quiet quiet;
   const auto open = [&file](Column& column) {
-    const hid_t id =
-        H5Dopen2(file.id(), column.path.c_str(), table_settings(column.chunk_values).get());
+    const hid_t id = H5Dopen2(file.id(), column.path.c_str(),
+                              table_settings(column.chunk_values, column.size).get());
     column.dataset = Hdf5Handle(file.check(id, "open " + column.path), H5Dclose);
   };
   if (!time_.path.empty()) open(time_);
