@@ -438,6 +438,15 @@ def test_too_little_memory_for_making_columns(tmp_path, model):
     assert "equations on 2 processes could not be made" in told and "making the rows" in told
 
 
+@several
+def test_inertia_of_solids_is_integrated_by_others(tmp_path):
+    """The scalar mass matrix comes first of all that they make of solids. One without memory for its columns says for how many nodes."""
+    (tmp_path / "cube.yaml").write_text(CUBE)
+    idle = memory_of_the_second(tmp_path, BLOCKS, "30 s")
+    told = told_with_little_memory(tmp_path, idle + 2_000_000)
+    assert f"a matrix of {19**3} equations on 2 processes could not be made" in told
+
+
 def test_one_process_counts_nothing(buckens, tmp_path):
     buckens("run", BLOCKS, "-o", "out", "--set", "simulation.duration=2 ms").must(0)
     measures = json.loads((tmp_path / "out" / "summary.json").read_text()).get("measures", {})

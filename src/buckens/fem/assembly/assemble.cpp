@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,6 +12,7 @@
 #include "buckens/fem/assembly/inertia_assembly.h"
 #include "buckens/fem/assembly/made_columns.h"
 #include "buckens/fem/assembly/node_rotations.h"
+#include "buckens/fem/assembly/solid_inertia.h"
 #include "buckens/fem/assembly/stiffness_assembly.h"
 #include "buckens/fem/element/node_label.h"
 #include "buckens/linalg/ranks.h"
@@ -154,9 +157,23 @@ void set_mass_damping(FeModel& fe) {
   fe.damps_held_motion = first->damps_held_motion;
 }
 
+/// Solids of a large mesh, which other processes integrate; the other blocks are left.
+std::optional<SolidInertia> solids_elsewhere(Blocks& blocks, const MeshView& mesh) {
+  if (!linalg::is_shared_work(mesh.dofs.num_dofs)) return {};
+  const auto solids = std::find_if(blocks.begin(), blocks.end(), [](const auto& block) {
+    return block->is_solid() && block->num_elements() > 0;
+  });
+  if (solids == blocks.end()) return {};
+  const auto taken = *solids;
+  blocks.erase(solids);
+  return SolidInertia(solid_mass_made_elsewhere(taken, mesh.nodes), mesh.nodes);
+}
+
 /// @return the part of M that is not in Σ W_aa
-SparseMatrix integrate_inertia(const Blocks& blocks, const MeshView& mesh, FeModel& fe) {
+SparseMatrix integrate_inertia(Blocks blocks, const MeshView& mesh, FeModel& fe) {
+  const std::optional<SolidInertia> solids = solids_elsewhere(blocks, mesh);
   MassMoment moment;
+  if (solids) solids->add_mass(moment);
   for (const auto& block : blocks) block->add_mass(mesh.nodes, moment);
   if (!(moment.mass > 0.0)) {
     throw ModelError("the mesh has no mass; give a material a density or add a point mass");
@@ -168,6 +185,16 @@ SparseMatrix integrate_inertia(const Blocks& blocks, const MeshView& mesh, FeMod
   const int n = mesh.dofs.num_dofs;
   AssembledInertia inertia = assemble_inertia(blocks, mesh, shape.com);
   InertiaSum& sum = inertia.sum;
+  if (solids) {
+    solids->add_moments(mesh.dofs, shape.com, sum);
+    const SparseMatrix& Ms = solids->scalar_mass();
+    if (inertia.nodal.empty()) {
+      inertia.nodal.Ms = Ms;
+      inertia.nodal.dofs = translations(mesh.dofs);
+    } else {
+      inertia.nodal.Ms += Ms;
+    }
+  }
   for (std::size_t k = 0; k < sum.W.size(); ++k) shape.W[k] = taken_matrix(n, sum.W[k]);
   shape.c = std::move(sum.c);
   shape.C0 = sum.C0;

@@ -4,24 +4,13 @@
 #include <optional>
 
 #include "buckens/fem/assembly/element_pieces.h"
+#include "buckens/fem/assembly/solid_inertia.h"
 #include "buckens/fem/assembly/stiffness_assembly.h"
 #include "buckens/linalg/counted_entries.h"
 
 namespace buckens::fem {
 
 using linalg::SparseMatrix;
-
-namespace {
-
-DofMap one_per_node(std::size_t num_nodes) {
-  DofMap out;
-  for (std::size_t node = 0; node < num_nodes; ++node) {
-    out.node_dofs.push_back({out.num_dofs++, -1, -1, -1, -1, -1});
-  }
-  return out;
-}
-
-}  // namespace
 
 AssembledInertia assemble_inertia(const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
                                   const MeshView& mesh, const Eigen::Vector3d& com) {
@@ -39,10 +28,13 @@ AssembledInertia assemble_inertia(const std::vector<std::shared_ptr<const Elemen
   }
   out.sum.nodal = {};
   if (!Ms) return out;
-  out.nodal.Ms = Ms->take();
-  for (const auto& node : mesh.dofs.node_dofs) {
-    out.nodal.dofs.push_back({node[0], node[1], node[2]});
-  }
+  out.nodal = {Ms->take(), translations(mesh.dofs)};
+  return out;
+}
+
+std::vector<std::array<int, 3>> translations(const DofMap& dofs) {
+  std::vector<std::array<int, 3>> out;
+  for (const auto& node : dofs.node_dofs) out.push_back({node[0], node[1], node[2]});
   return out;
 }
 

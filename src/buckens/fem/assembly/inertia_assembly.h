@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct AssembledInertia {
 /// @param com mass centre of the whole body in model axes [m]
 AssembledInertia assemble_inertia(const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
                                   const MeshView& mesh, const Eigen::Vector3d& com);
+
+/// Of each node, as NodalMass::dofs.
+std::vector<std::array<int, 3>> translations(const DofMap& dofs);
 
 /// The n×n sum of what elements have listed, in its order. Empties the list.
 linalg::SparseMatrix taken_matrix(int n, std::vector<linalg::Triplet>& listed);

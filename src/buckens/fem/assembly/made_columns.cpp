@@ -30,8 +30,13 @@ SparseMatrix matrix_of(MeshMatrix which, const MeshPart& part) {
     shape.nodal = std::move(inertia.nodal);
     return mass_matrix(shape, taken_matrix(n, inertia.sum.M_flywheel), n);
   }
-  StiffnessMatrices stiffness = assemble_stiffness(part.blocks, mesh);
   SparseMatrix out;
+  if (which == MeshMatrix::scalar_mass) {
+    AssembledInertia inertia = assemble_inertia(part.blocks, mesh, Eigen::Vector3d::Zero());
+    out.swap(inertia.nodal.Ms);
+    return out;
+  }
+  StiffnessMatrices stiffness = assemble_stiffness(part.blocks, mesh);
   out.swap(which == MeshMatrix::stiffness ? stiffness.K : stiffness.K_damping);
   return out;
 }

@@ -11,8 +11,9 @@
 
 namespace buckens::fem {
 
-/// What other processes make: symmetric matrices of a mesh, or rows of stresses (stress_rows.h).
-enum class MeshMatrix : int { mass, stiffness, damping, stress };
+/// What other processes make: symmetric matrices of a mesh, rows of stresses (stress_rows.h), or
+/// the scalar mass matrix, by nodes (solid_inertia.h).
+enum class MeshMatrix : int { mass, stiffness, damping, stress, scalar_mass };
 
 /// Variables of a mesh that follow others, d = T x.
 using Following = Eigen::SparseMatrix<double, Eigen::RowMajor>;

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/fem/assembly/solid_inertia.h"
+
+#include <array>
+#include <utility>
+
+#include "buckens/fem/assembly/made_columns.h"
+
+namespace buckens::fem {
+
+using linalg::Vector;
+
+SolidInertia::SolidInertia(linalg::SymmetricMatrix Ms, const std::vector<Node>& nodes)
+    : Ms_(std::move(Ms)), nodes_(&nodes) {}
+
+void SolidInertia::add_mass(MassMoment& sum) const {
+  const Vector ones = Vector::Ones(Ms_.rows());
+  Vector share(Ms_.rows());
+  linalg::multiply({{&Ms_, &ones, &share}});
+  sum.mass += share.sum();
+  for (std::size_t node = 0; node < nodes_->size(); ++node) {
+    sum.first += share[static_cast<Eigen::Index>(node)] * (*nodes_)[node].position;
+  }
+}
+
+void SolidInertia::add_moments(const DofMap& dofs, const Eigen::Vector3d& com,
+                               InertiaSum& sum) const {
+  std::array<Vector, 3> x0, moment;  // of the nodes; Σ_J Ms_IJ x0_J
+  for (std::size_t a = 0; a < 3; ++a) {
+    x0[a].resize(Ms_.rows());
+    moment[a].resize(Ms_.rows());
+    for (std::size_t node = 0; node < nodes_->size(); ++node) {
+      const auto axis = static_cast<Eigen::Index>(a);
+      x0[a][static_cast<Eigen::Index>(node)] = (*nodes_)[node].position[axis] - com[axis];
+    }
+  }
+  linalg::multiply(
+      {{&Ms_, &x0[0], &moment[0]}, {&Ms_, &x0[1], &moment[1]}, {&Ms_, &x0[2], &moment[2]}});
+  Eigen::Matrix3d second;
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t b = 0; b < 3; ++b) {
+      second(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) = moment[a].dot(x0[b]);
+    }
+    for (std::size_t node = 0; node < nodes_->size(); ++node) {
+      for (std::size_t b = 0; b < 3; ++b) {
+        const int dof = dofs.node_dofs[node][b];
+        if (dof < 0) continue;
+        sum.c(dof, static_cast<Eigen::Index>(3 * a + b)) +=
+            moment[a][static_cast<Eigen::Index>(node)];
+      }
+    }
+  }
+  sum.C0 += 0.5 * (second + second.transpose());
+}
+
+linalg::SymmetricMatrix solid_mass_made_elsewhere(const std::shared_ptr<const ElementBlock>& solids,
+                                                  const std::vector<Node>& nodes) {
+  const DofMap numbers = one_per_node(nodes.size());
+  return matrix_made_elsewhere(MeshMatrix::scalar_mass, {solids}, {nodes, numbers});
+}
+
+DofMap one_per_node(std::size_t num_nodes) {
+  DofMap out;
+  for (std::size_t node = 0; node < num_nodes; ++node) {
+    out.node_dofs.push_back({out.num_dofs++, -1, -1, -1, -1, -1});
+  }
+  return out;
+}
+
+}  // namespace buckens::fem

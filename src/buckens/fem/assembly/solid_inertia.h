@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "buckens/fem/element/block.h"
+#include "buckens/fem/element/shape_integrals.h"
+#include "buckens/linalg/symmetric_matrix.h"
+
+namespace buckens::fem {
+
+/// Inertia integrals over the solids of a mesh, as products with their scalar mass matrix Ms.
+///
+/// Shape functions add up to one and reproduce the position, so that mass, first moments, c and C0
+/// are sums of 1, x and Ms: no element is integrated again. Where several processes share the work,
+/// each of the others makes the columns of Ms of its nodes, from the elements around them, and adds
+/// its share to the products. Shares are added in the order of the processes.
+class SolidInertia {
+ public:
+  /// @param Ms N×N, divided or not
+  /// @param nodes outlive this object
+  SolidInertia(linalg::SymmetricMatrix Ms, const std::vector<Node>& nodes);
+
+  void add_mass(MassMoment& sum) const;
+  /// Adds to c and C0. @param com mass centre of the whole body in model axes [m]
+  void add_moments(const DofMap& dofs, const Eigen::Vector3d& com, InertiaSum& sum) const;
+  /// In this process, with the bits of an assembly there.
+  const linalg::SparseMatrix& scalar_mass() const { return Ms_.whole(); }
+
+ private:
+  linalg::SymmetricMatrix Ms_;
+  const std::vector<Node>* nodes_;
+};
+
+/// Ms of the solids of a mesh, columns of which the other processes make.
+/// @pre linalg::is_shared_work() of its variables
+/// @throws NumericalError if a process cannot, with its reason
+linalg::SymmetricMatrix solid_mass_made_elsewhere(const std::shared_ptr<const ElementBlock>& solids,
+                                                  const std::vector<Node>& nodes);
+
+/// One variable per node, of the number of the node.
+DofMap one_per_node(std::size_t num_nodes);
+
+}  // namespace buckens::fem
