@@ -447,6 +447,20 @@ def test_inertia_of_solids_is_integrated_by_others(tmp_path):
     assert f"a matrix of {19**3} equations on 2 processes could not be made" in told
 
 
+@several
+def test_a_process_without_a_disk_keeps_its_rows(buckens, tmp_path):
+    """Others have M and K on the disk while the factor is computed."""
+    (tmp_path / "cube.yaml").write_text(CUBE)
+    limited = "[ $OMPI_COMM_WORLD_RANK = 0 ] || ulimit -f 0; exec \"$@\""
+    command = [MPIRUN, "-n", "3", "sh", "-c", limited, "sh", PROGRAM, "run", "cube.yaml", "-o", "three"]
+    must(subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=240, check=False, env=ENVIRONMENT,
+                        stdin=subprocess.DEVNULL))
+    buckens("run", "cube.yaml", "-o", "one").must(0)
+    assert largest_difference(sensors(tmp_path / "three"), sensors(tmp_path / "one")) < 1e-9
+    expect_same_energies(tmp_path / "three", tmp_path / "one")
+    expect_same_stresses(tmp_path / "three", tmp_path / "one")
+
+
 def test_one_process_counts_nothing(buckens, tmp_path):
     buckens("run", BLOCKS, "-o", "out", "--set", "simulation.duration=2 ms").must(0)
     measures = json.loads((tmp_path / "out" / "summary.json").read_text()).get("measures", {})

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <new>
 #include <string>
@@ -24,9 +25,11 @@ enum Job : int { kBegin = -1, kEnd = -2, kAnalyse = 1, kFactorise = 2, kSolve = 
 constexpr int kNarrow[] = {-8, -9, -14, -15, -17, -20};
 constexpr int kNoMemory[] = {-7, -13, -19, -23};
 constexpr int kNotDefinite[] = {-10, -40};
-// What MUMPS adds to its predictions [%], and how much of them is set aside if the first try fails.
+// What MUMPS adds to its predictions [%], and how much of them is set aside if the first try fails,
+// and the next ones. Processes get fronts as they have time for them, so that the first may fail on
+// a busy machine only.
 constexpr int kRelaxation = 20;
-constexpr double kFirstMargin = 1.3, kLastMargin = 6.0;
+constexpr double kMargins[] = {1.0, 1.3, 2.6, 5.2, 10.4};
 // Share of the predicted fronts for which the first try has room on two processes; what has no room
 // there goes elsewhere. On four, half was too little for 292 008 variables.
 constexpr double kShareOfTwo = 0.5;
@@ -182,11 +185,11 @@ bool MumpsFactor::factorise() {
   give_memory_back();  // of the analysis and of what came before
   const double predicted = number(mumps_.info[8 - 1]);
   double numbers = numbers_at_first();
-  for (double margin = kFirstMargin;; margin *= 2) {
+  for (const double* margin = kMargins;; ++margin) {
     if (!set_aside(numbers)) return false;
     if (run(kFactorise)) break;
-    if (!is_among(mumps_.infog[0], kNarrow) || margin > 2 * kLastMargin) return false;
-    numbers = std::ceil(margin * predicted) + kMillion;
+    if (!is_among(mumps_.infog[0], kNarrow) || margin == std::end(kMargins)) return false;
+    numbers = std::ceil(*margin * predicted) + kMillion;
   }
   // Where the factor ends: KEEP8(31). Its solves need hardly more.
   workspace_.keep(static_cast<std::size_t>(mumps_.keep8[31 - 1]));

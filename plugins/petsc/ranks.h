@@ -12,6 +12,7 @@
 namespace buckens_petsc {
 
 enum class Task : int;
+class MumpsFactor;
 
 /// The processes that mpirun started, of which the first simulates and the others serve its solves:
 /// they hold runs of rows of each matrix and of its factor, and wait for work.
@@ -94,6 +95,7 @@ class Ranks {
   bool receive_rows(int count, int num_motions, OwnRows& own);
   bool make_together(const Order& order, const BuckensGridMatrix* matrix);
   bool factorise_together(const Order& order, const BuckensGridMatrix* matrix);
+  bool make_with_room(MumpsFactor& factor, OwnRows& own);
   void find_places(int size, Part& part);
   bool sum_terms(const Order& order, const double* of_terms, OwnRows& own);
   std::vector<const Divided*> terms_of(const Order& order) const;
@@ -116,8 +118,8 @@ class Ranks {
   void multiply_together(const Order& order, const double* const* x, double* const* y);
   void ask_for_products(const std::vector<const Divided*>& matrices, const double* const* x,
                         double* const* y);
-  void add_shares(const std::vector<const Divided*>& matrices, const double* from,
-                  double* const* y) const;
+  static void add_share(const std::vector<const Divided*>& matrices, int process,
+                        const double* from, double* const* y);
   void form_products(const std::vector<const Divided*>& matrices);
   void put_triangles_together(const Divided& matrix, const std::vector<OwnRows>& parts, int* starts,
                               int* rows, double* values);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "arrays_aside.h"
 #include "process_memory.h"
 #include "ranks_messages.h"
 #include "ranks_parts.h"
@@ -139,14 +140,33 @@ bool Ranks::factorise_together(const Order& order, const BuckensGridMatrix* matr
   if (!is_prepared) set_reason("there is too little memory for the rows of the matrix");
   if (has_failed_somewhere(!is_prepared)) return false;
   own.rows = {};
-  const bool is_made = part->factor->make();
-  own = {};
+  const bool is_made = make_with_room(*part->factor, own);
   if (matrix != nullptr && matrix->give != nullptr) matrix->give(matrix->source, 0, 0, nullptr);
   give_memory_back();
   if (has_failed_somewhere(!is_made)) return false;
   find_places(order.size, *part);
   shared_->parts[order.number] = std::move(part);
   return true;
+}
+
+/// Fronts need most memory of all, and while there are some, nothing needs M and K.
+bool Ranks::make_with_room(MumpsFactor& factor, OwnRows& own) {
+  ArraysAside aside;
+  for (auto& [number, matrix] : shared_->matrices) {
+    aside.put(matrix->rows);
+    aside.put(matrix->values);
+  }
+  const bool is_made = factor.make();
+  own = {};
+  give_memory_back();
+  bool is_back = true;
+  const bool has_room = has_memory_for([&] { is_back = aside.bring_back(); });
+  if (has_room && is_back) return is_made;
+  if (has_room) set_reason("the disk has lost the rows of M and K, which it had meanwhile");
+  for (auto& [number, matrix] : shared_->matrices) {
+    std::fill(matrix->starts.begin(), matrix->starts.end(), 0);  // no product reads what is lost
+  }
+  return false;
 }
 
 /// Which variables are where in a factor.

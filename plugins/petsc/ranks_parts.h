@@ -97,7 +97,7 @@ struct Ranks::Divided {
 
   /// Columns here.
   int count() const { return static_cast<int>(starts.size()) - 1; }
-  /// Numbers that a process adds to a product.
+  /// Numbers that a process adds to a product, there.
   std::size_t num_results(int rank) const {
     return is_symmetric ? variables.size() : static_cast<std::size_t>(counts[rank]);
   }
@@ -125,7 +125,8 @@ struct Ranks::Shared {
     matrices.erase(number);
     pairs.erase(number);
   }
-  std::vector<double> sent, received;  // by products
+  // Of products: what one process gets of all x; what it adds to all y, of the others.
+  std::vector<double> share, results;
   std::vector<int> edges;
 };
 

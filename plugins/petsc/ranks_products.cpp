@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Products with matrices that the first process has given away.
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "ranks_messages.h"
@@ -30,52 +31,46 @@ void Ranks::multiply_together(const Order& order, const double* const* x, double
   }
 }
 
+/// Process after process, so that the first one never has more than what one of them needs or adds.
 void Ranks::ask_for_products(const std::vector<const Divided*>& matrices, const double* const* x,
                              double* const* y) {
-  std::vector<int> there(static_cast<std::size_t>(count_), 0), back(there);
-  for (const Divided* A : matrices) {
-    for (int k = 1; k < count_; ++k) {
-      there[k] += A->list_counts[k];
-      back[k] += A->is_symmetric ? A->list_counts[k] : A->counts[k];
-    }
-  }
-  const std::vector<int> there_first = starts_of(there), back_first = starts_of(back);
-  std::vector<double>& sent = shared_->sent;
-  std::vector<double>& received = shared_->received;
-  sent.resize(static_cast<std::size_t>(there_first.back()));
-  received.resize(static_cast<std::size_t>(back_first.back()));
-  auto next = sent.begin();
+  std::vector<double>& share = shared_->share;
   for (int k = 1; k < count_; ++k) {
+    share.clear();
     for (std::size_t m = 0; m < matrices.size(); ++m) {
       const int* list = matrices[m]->lists.data() + matrices[m]->list_first[k];
-      next = std::transform(list, list + matrices[m]->list_counts[k], next,
-                            [from = x[m]](int variable) { return from[variable]; });
+      std::transform(list, list + matrices[m]->list_counts[k], std::back_inserter(share),
+                     [from = x[m]](int variable) { return from[variable]; });
     }
+    send_counted(share.data(), share.size(), k);
   }
-  MPI_Scatterv(sent.data(), there.data(), there_first.data(), MPI_DOUBLE, nullptr, 0, MPI_DOUBLE, 0,
-               work_);
-  MPI_Gatherv(nullptr, 0, MPI_DOUBLE, received.data(), back.data(), back_first.data(), MPI_DOUBLE,
-              0, work_);
-  add_shares(matrices, received.data(), y);
-  count_messages(2 * (count_ - 1), 0);
-  traffic_.bytes += sizeof(double) * static_cast<double>(sent.size() + received.size());
-}
-
-void Ranks::add_shares(const std::vector<const Divided*>& matrices, const double* from,
-                       double* const* y) const {
   for (std::size_t m = 0; m < matrices.size(); ++m) {
     if (matrices[m]->is_symmetric) std::fill_n(y[m], matrices[m]->size, 0.0);
   }
   for (int k = 1; k < count_; ++k) {
-    for (std::size_t m = 0; m < matrices.size(); ++m) {
-      const Divided& A = *matrices[m];
-      if (A.is_symmetric) {
-        const int* list = A.lists.data() + A.list_first[k];
-        for (int i = 0; i < A.list_counts[k]; ++i) y[m][list[i]] += *from++;
-      } else {
-        std::copy_n(from, A.counts[k], y[m] + A.first[k]);
-        from += A.counts[k];
-      }
+    std::size_t back = 0;
+    for (const Divided* A : matrices) {
+      back += static_cast<std::size_t>(A->is_symmetric ? A->list_counts[k] : A->counts[k]);
+    }
+    share.resize(back);
+    receive(share.data(), back, k, work_);
+    add_share(matrices, k, share.data(), y);
+    count_messages(1, sizeof(double) * static_cast<double>(back));
+  }
+}
+
+/// What a process adds to all y.
+void Ranks::add_share(const std::vector<const Divided*>& matrices, int process, const double* from,
+                      double* const* y) {
+  const auto k = static_cast<std::size_t>(process);
+  for (std::size_t m = 0; m < matrices.size(); ++m) {
+    const Divided& A = *matrices[m];
+    if (A.is_symmetric) {
+      const int* list = A.lists.data() + A.list_first[k];
+      for (int i = 0; i < A.list_counts[k]; ++i) y[m][list[i]] += *from++;
+    } else {
+      std::copy_n(from, A.counts[k], y[m] + A.first[k]);
+      from += A.counts[k];
     }
   }
 }
@@ -105,12 +100,11 @@ void Ranks::form_products(const std::vector<const Divided*>& matrices) {
     there += A->variables.size();
     back += A->num_results(rank_);
   }
-  std::vector<double>& received = shared_->received;
-  std::vector<double>& sent = shared_->sent;
+  std::vector<double>& received = shared_->share;
+  std::vector<double>& sent = shared_->results;
   received.resize(there);
   sent.assign(back, 0.0);
-  MPI_Scatterv(nullptr, nullptr, nullptr, MPI_DOUBLE, received.data(), static_cast<int>(there),
-               MPI_DOUBLE, 0, work_);
+  receive(received.data(), there, 0, work_);
   const double* x = received.data();
   double* y = sent.data();
   for (const Divided* A : matrices) {
@@ -122,8 +116,7 @@ void Ranks::form_products(const std::vector<const Divided*>& matrices) {
     x += A->variables.size();
     y += A->num_results(rank_);
   }
-  MPI_Gatherv(sent.data(), static_cast<int>(back), MPI_DOUBLE, nullptr, nullptr, nullptr,
-              MPI_DOUBLE, 0, work_);
+  send(sent.data(), back, 0, work_);
 }
 
 }  // namespace buckens_petsc
