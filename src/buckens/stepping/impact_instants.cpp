@@ -74,25 +74,33 @@ void Impacts::find_instants() {
   }
 }
 
-template <class F>
-void Impacts::at_own_instant(const Touch& touch, const std::vector<dynamics::BodyMotion>& motions,
-                             std::vector<dynamics::BodyMotion>& then, F&& f) {
+std::size_t Impacts::find_moved(const Touch& touch, std::array<std::size_t, 2>& moved) const {
   const model::Load& load = model_.loads[laws_[touch.law].load];
-  std::array<dynamics::BodyMotion, 2> kept;
-  const std::array<int, 2> bodies = {load.first.body, load.second.body};
-  for (std::size_t k = 0; k < 2; ++k) {
-    if (bodies[k] == model::kGround) continue;
-    const auto b = static_cast<std::size_t>(bodies[k]);
-    if (jumps_[b].since == touch.from) continue;
-    kept[k] = std::exchange(then[b], motions[b]);
-    go_back(touch.from, then[b]);
+  std::size_t count = 0;
+  for (const int body : {load.first.body, load.second.body}) {
+    if (body == model::kGround) continue;
+    const auto b = static_cast<std::size_t>(body);
+    if (jumps_[b].since != touch.from) moved[count++] = b;
   }
-  f(then);
-  for (std::size_t k = 0; k < 2; ++k) {
-    if (bodies[k] == model::kGround) continue;
-    const auto b = static_cast<std::size_t>(bodies[k]);
-    if (jumps_[b].since != touch.from) then[b] = std::move(kept[k]);
+  return count;
+}
+
+void Impacts::go_to_instant(const Touch& touch, const std::vector<dynamics::BodyMotion>& motions,
+                            std::vector<dynamics::BodyMotion>& then, MotionPair& kept) const {
+  std::array<std::size_t, 2> moved{};
+  const std::size_t count = find_moved(touch, moved);
+  for (std::size_t k = 0; k < count; ++k) {
+    dynamics::BodyMotion& motion = then[moved[k]];
+    kept[k] = std::exchange(motion, motions[moved[k]]);
+    go_back(touch.from, motion);
   }
+}
+
+void Impacts::leave_instant(const Touch& touch, std::vector<dynamics::BodyMotion>& then,
+                            MotionPair& kept) const {
+  std::array<std::size_t, 2> moved{};
+  const std::size_t count = find_moved(touch, moved);
+  for (std::size_t k = 0; k < count; ++k) then[moved[k]] = std::move(kept[k]);
 }
 
 std::vector<dynamics::BodyMotion> Impacts::at_impact(std::vector<dynamics::BodyMotion> motions) {

@@ -143,26 +143,27 @@ bool Impacts::find(const std::vector<dynamics::BodyMotion>& motions,
   std::vector<dynamics::BodyMotion> then = at_impact(motions);
   find_instants();
   condense(then, bodies, rows_in_use, around, t);
+  MotionPair kept;
   for (Touch& touch : touches_) {
     const double most = std::abs(strongest_near(touch).rate);
-    at_own_instant(touch, motions, then, [&](const std::vector<dynamics::BodyMotion>& there) {
-      set_row(laws_[touch.law].load, touch.sign, there, around.memory, touch);
-      const double rate = rate_of(touch.row, there);
-      const auto is_other = [&](double known) {
-        return std::abs(rate - known) > kSamePlace * std::max(most, std::abs(rate));
-      };
-      // Round bodies that graze each other have different rates at both instants, at the same
-      // contact point.
-      const bool is_met = touch.strikes && !touch.stays && !is_other(-touch.approach);
-      touch.is_elsewhere = is_other(touch.rate) && !is_met;
-    });
+    go_to_instant(touch, motions, then, kept);
+    set_row(laws_[touch.law].load, touch.sign, then, around.memory, touch);
+    const double rate = rate_of(touch.row, then);
+    leave_instant(touch, then, kept);
+    const auto is_other = [&](double known) {
+      return std::abs(rate - known) > kSamePlace * std::max(most, std::abs(rate));
+    };
+    // Round bodies that graze each other have different rates at both instants, at the same
+    // contact point.
+    const bool is_met = touch.strikes && !touch.stays && !is_other(-touch.approach);
+    touch.is_elsewhere = is_other(touch.rate) && !is_met;
     if (touch.is_elsewhere) take_row_of_end(touch, motions, around.memory);
     answers_to_.answer(touch);
   }
   for (std::size_t k = 0; k < touches_.size(); ++k) {
-    at_own_instant(touches_[k], motions, then, [&](const auto& there) {
-      add_slips(k, touches_[k].is_elsewhere ? motions : there, around.memory);
-    });
+    go_to_instant(touches_[k], motions, then, kept);
+    add_slips(k, touches_[k].is_elsewhere ? motions : then, around.memory);
+    leave_instant(touches_[k], then, kept);
   }
   return strike(then, rows_in_use, around.memory, t) ||
          find(motions, bodies, rows_in_use, around, t);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -142,11 +143,16 @@ class Impacts {
   /// Pairs of bodies that no joint holds get the instant of their own strongest impact, whatever
   /// else reaches them; others get that of their island.
   void find_instants();
-  /// Calls f with the motions at which the row of a touch is taken. @param then at_impact(),
-  /// changed and restored
-  template <class F>
-  void at_own_instant(const Touch& touch, const std::vector<dynamics::BodyMotion>& motions,
-                      std::vector<dynamics::BodyMotion>& then, F&& f);
+  using MotionPair = std::array<dynamics::BodyMotion, 2>;
+  /// Bodies of a touch whose motions in at_impact() are not those at its own instant. @return
+  /// number
+  std::size_t find_moved(const Touch& touch, std::array<std::size_t, 2>& moved) const;
+  /// Moves the bodies of a touch to the instant at which its row is taken. @param then at_impact()
+  void go_to_instant(const Touch& touch, const std::vector<dynamics::BodyMotion>& motions,
+                     std::vector<dynamics::BodyMotion>& then, MotionPair& kept) const;
+  /// Moves them back. @param kept as go_to_instant() has written it
+  void leave_instant(const Touch& touch, std::vector<dynamics::BodyMotion>& then,
+                     MotionPair& kept) const;
   /// Motions of the bodies at the strongest of the impacts that reach them.
   std::vector<dynamics::BodyMotion> at_impact(std::vector<dynamics::BodyMotion> motions);
   void set_row(std::size_t load, double sign, const std::vector<dynamics::BodyMotion>& motions,
