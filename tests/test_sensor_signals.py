@@ -205,6 +205,67 @@ def test_a_run_with_readings_goes_on_bit_for_bit(buckens, tmp_path, method):
             assert one[name][:].tobytes() == other[name][:].tobytes(), name
 
 
+ACCELERATION = """
+buckens: 1
+bodies: {cart: {rigid: {mass: 1 kg, inertia: [1e-2, 1e-2, 1e-2]}}}
+joints: {rail: {prismatic: {between: [ground, cart], axis: [1, 0, 0]}}}
+signals:
+  acc: {sensor: a}
+  u: FORCE
+loads: {motor: {slide-motor: {joint: rail, force: v}}}
+simulation: {duration: 100 ms, step: 1 ms, METHOD}
+output: {every: 1 ms, sensors: {a: {acceleration: {of: cart, along: [1, 0, 0]}}}}
+"""
+
+
+def acceleration(gain, follow="value: u", method="method: generalized-alpha"):
+    return (ACCELERATION.replace("FORCE", f"\"{gain}*acc + 1\"\n  v: {{{follow}}}").replace("METHOD", method))
+
+
+@pytest.mark.parametrize("gain, told", [(-2, "-2"), (-1.5, "-1.5"), (3, "3")])
+@pytest.mark.parametrize("method", ["method: generalized-alpha", "method: newmark"])
+def test_a_feedback_of_the_step_before_that_diverges_is_named(buckens, tmp_path, gain, told, method):
+    """a⁺ = g a + 1 grows by g in every step, whatever its length: the run ended with 8e29 m/s² and code 0."""
+    (tmp_path / "model.yaml").write_text(acceleration(gain, method=method))
+    buckens("run", "model.yaml", "-o", "out").must(
+        4, "model.yaml:6:", "signal \"acc\", read from sensor \"a\"", f"about {told} times the one before", "whatever the step", "`lag`")
+    # Long before 1e30: growth by 1e9 from the first change is enough.
+    with h5py.File(tmp_path / "out" / "results.h5") as file:
+        assert 1e6 < abs(file["sensors/a"][:]).max() < 1e13
+
+
+@pytest.mark.parametrize("gain", [-2, 3])
+def test_a_feedback_that_diverges_under_step_control_is_named(buckens, tmp_path, gain):
+    """Here steps become shorter and shorter, which does not help, until one fails."""
+    (tmp_path / "model.yaml").write_text(acceleration(gain, method="tolerance: 1e-4"))
+    buckens("run", "model.yaml", "-o", "out").must(4, "model.yaml:6:", "signal \"acc\" has grown exponentially", "seems to diverge", "gains")
+
+
+@pytest.mark.parametrize("gain", [-0.9, -0.5, 0.5])
+def test_a_feedback_of_the_step_before_that_settles_is_let_be(sensors, gain):
+    out = sensors(acceleration(gain))
+    assert out["a"][-1] == pytest.approx(1 / (1 - gain), rel=2 * 0.9 ** 100)
+
+
+def test_the_remedies_of_a_feedback_that_diverges(sensors):
+    """With a lag of ten steps the same feedback settles, where the force is -2 a + 1 = a."""
+    out = sensors(acceleration(-2, "lag: {input: u, time-constant: 10 ms}"))
+    assert out["a"][-1] == pytest.approx(1 / 3, rel=1e-6)
+
+
+def test_a_feedback_that_jumps_out_of_all_bounds_is_named(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text(acceleration(-1e4))
+    buckens("run", "model.yaml", "-o", "out").must(4, "model.yaml:6:", "signal \"acc\" has grown to", "diverges", "`lag`")
+
+
+def test_a_continued_run_remembers_how_readings_have_grown(buckens, tmp_path):
+    (tmp_path / "model.yaml").write_text(acceleration(-2))
+    whole = buckens("run", "model.yaml", "-o", "whole").must(4, "since t = ")
+    buckens("run", "model.yaml", "-o", "short", "-q", "--set", "simulation.duration=25 ms").must(0)
+    told = [line.split("signal ")[1] for line in whole.err.splitlines() if "error:" in line]
+    buckens("run", "--continue", "short", "--until", "100 ms").must(4, told[0])
+
+
 BAD = {
     "r: {sensor: sell}": ["unknown sensor \"sell\"", "cell"],
     "r: {sensor: cell}": ["signal \"r\": sensor \"cell\" has 3 values", "`component` one of x, y, z"],

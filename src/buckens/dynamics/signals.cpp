@@ -256,9 +256,9 @@ void require_bounded(const model::Model& model, const SignalValues& s) {
       signal.where,
       fmt::format(
           "signal \"{}\" has grown to {:.3g} at t = {:.6g} s: what it controls diverges; "
-          "check the sign of its feedback and its gains, give it `limits`, or use a smaller "
-          "step",
-          signal.name, s.x[worst], s.values[0]));
+          "check the sign of its feedback and its gains, {}",
+          signal.name, s.x[worst], s.values[0],
+          signal.held ? "or put a `lag` into it" : "give it `limits`, or use a smaller step"));
 }
 
 /// @param around with the memory at the start of the step

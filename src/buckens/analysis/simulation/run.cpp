@@ -72,6 +72,7 @@ void SimulationRun::step() {
   const std::vector<EventWatch::Found> found = events_->after_step(before_, state);
   note_events(found);
   if (recording_) recording_->after_step(before_, state, is_done());
+  reading_growth_->follow(state.memory.signals);
   watch_->after_step(march_->stepper(), state);
   if (has_samples_ && carries_accelerations()) pass_samples(report);
   act_on_events(found);

@@ -18,6 +18,7 @@
 #include "buckens/analysis/simulation/nodal_views.h"
 #include "buckens/analysis/simulation/output_plan.h"
 #include "buckens/analysis/simulation/power_watch.h"
+#include "buckens/analysis/simulation/reading_growth.h"
 #include "buckens/analysis/simulation/run_recording.h"
 #include "buckens/analysis/simulation/run_statistics.h"
 #include "buckens/analysis/simulation/shaft_watch.h"
@@ -119,6 +120,7 @@ class SimulationRun {
   std::optional<DriveLaws> drives_;
   std::optional<ShaftWatch> shafts_;
   std::optional<SignalGrowth> growth_;
+  std::optional<ReadingGrowth> reading_growth_;
   std::optional<PowerWatch> powers_;
   std::optional<EventWatch> events_;
   std::optional<EventActions> actions_;

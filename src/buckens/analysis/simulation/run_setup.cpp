@@ -152,6 +152,7 @@ void SimulationRun::set_up() {
   drives_.emplace(built_.description);
   shafts_.emplace(built_.model);
   growth_.emplace(built_.model);
+  reading_growth_.emplace(built_.model);
   events_.emplace(built_);
   actions_.emplace(built_, *metric_);
   statistics_.emplace(built_);

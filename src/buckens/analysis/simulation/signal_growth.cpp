@@ -22,12 +22,14 @@ constexpr double kSlowing = 2.0;
 
 }  // namespace
 
-SignalGrowth::SignalGrowth(const model::Model& model)
-    : model_(model), doublings_(model.signals.all.size()) {
-  acts_ = !model.signals.steering.empty() ||
-          std::any_of(model.loads.begin(), model.loads.end(),
-                      [](const model::Load& load) { return load.element->uses_signals(); });
+bool follows_signals(const model::Model& model) {
+  return !model.signals.steering.empty() ||
+         std::any_of(model.loads.begin(), model.loads.end(),
+                     [](const model::Load& load) { return load.element->uses_signals(); });
 }
+
+SignalGrowth::SignalGrowth(const model::Model& model)
+    : model_(model), acts_(follows_signals(model)), doublings_(model.signals.all.size()) {}
 
 void SignalGrowth::follow(const std::vector<double>& signals) {
   if (!acts_ || signals.empty()) return;

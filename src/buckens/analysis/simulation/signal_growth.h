@@ -10,6 +10,9 @@
 
 namespace buckens::analysis {
 
+/// Whether anything in the model acts by the value of a signal.
+bool follows_signals(const model::Model& model);
+
 /// Notes when signals double, to tell those that a diverging controller drives from others where a
 /// step fails. Theory: docs/theory/24-control.md §4.
 class SignalGrowth {

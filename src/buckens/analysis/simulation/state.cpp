@@ -246,6 +246,7 @@ void SimulationRun::visit_saved(const base::SaveVisit& visit) {
   watch_->visit_saved(visit.inside("coupling"));
   observer_->visit_saved(visit.inside("sensors"));
   growth_->visit_saved(visit.inside("growth"));
+  reading_growth_->visit_saved(visit.inside("reading_growth"));
   if (built_.description.events.empty()) return;
   events_->visit_saved(visit.inside("events"));
   visit.texts("told_events", told_events_);
