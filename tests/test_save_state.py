@@ -202,6 +202,21 @@ simulation: {duration: 0.3 s, step: 1 ms, STEP}
 output: {every: 7 ms, sensors: {way: {joint-coordinate: hole}, hole: {joint-force: hole}, ends: {spring-force: ends}, lost: {energy: dissipated}}}
 """
 
+# Two arms on balls that rub by bristles.
+BRISTLES = """buckens: 1
+gravity: [0, 0, -9.81]
+bodies:
+  arm: {rigid: {mass: 1, inertia: [2e-3, 2e-3, 1e-4]}, at: {position: [0.1, 0, 0]}, markers: {o: {position: [-0.1, 0, 0]}, e: {position: [0.1, 0, 0]}}}
+  bob: {rigid: {mass: 0.5, inertia: [1e-4, 2e-4, 2e-4]}, at: {position: [0.25, 0, 0]}, markers: {o: {position: [-0.05, 0, 0]}}}
+joints: {hang: {spherical: {between: [ground, arm/o]}}, link: {spherical: {between: [arm/e, bob/o]}}}
+loads:
+  a: {ball-friction: {joint: hang, static: 0.2, radius: 10 mm, stick: bristles, bristle-stiffness: 200 N m/rad, bristle-damping: 0.1 N m s/rad}}
+  b: {ball-friction: {joint: link, static: 0.2, radius: 8 mm, stick: bristles, bristle-stiffness: 100 N m/rad, elastic-share: 0}}
+initial: {bodies: {arm: {velocity: [0, 0.8, -0.2], angular-velocity: [0, 2, 8]}, bob: {velocity: [0, 1.6, -0.4]}}}
+simulation: {duration: 0.3 s, step: 1 ms, STEP}
+output: {every: 7 ms, sensors: {p: {position: bob}, w: {angular-velocity: arm}, rub: {spring-torque: a}, lost: {energy: dissipated}}}
+"""
+
 # A bead that is driven around a closed spline, one that a spring pulls over laps and a stop throws back, a puck and a ball joint.
 COORDINATES = """buckens: 1
 gravity: [0, 0, -9.81]
@@ -407,6 +422,9 @@ CASES = {
     "rigid rows along a rail": (model(BUFFERS), 0.051),
     "rigid rows along a rail, locked": (model(BUFFERS, "frames: 3"), 0.12),
     "rigid rows along a rail, hht": (model(BUFFERS, step="method: hht"), 0.2),
+    "bristles of balls": (model(BRISTLES), 0.15),
+    "bristles of balls, hht": (model(BRISTLES, step="method: hht"), 0.15),
+    "bristles of balls, step control": (model(BRISTLES, step="tolerance: 1e-4"), 0.15),
     "coordinates by name": (model(COORDINATES), 0.3),
     "coordinates by name, hht": (model(COORDINATES, step="method: hht"), 0.3),
     "coordinates by name, step control": (model(COORDINATES, step="tolerance: 1e-4"), 0.3),

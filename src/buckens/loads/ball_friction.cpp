@@ -140,17 +140,7 @@ void BallFriction::append_slopes(const Sight& sight, int /*regime*/,
   }
 }
 
-std::array<bool, 3> BallFriction::reversed(const Rub& before, const Rub& now) const {
-  std::array<bool, 3> out{};
-  for (std::size_t k = 0; k < out.size(); ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
-    const double along = arms_ ? now.dry[row] * before.dry[row] : now.dry.dot(before.dry);
-    out[k] = now.slides[k] && before.slides[k] && along < 0.0;
-  }
-  return out;
-}
-
-BallFriction::Rub BallFriction::rub(const Sight& sight) const {
+TurningFriction::Rub BallFriction::rub(const Sight& sight) const {
   const Stand s = look(sight);
   Rub out;
   out.dry = s.torque + s.viscous * s.rate;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "buckens/loads/joint_friction.h"
+#include "buckens/loads/turning_friction.h"
 
 namespace buckens::loads {
 
@@ -14,7 +15,7 @@ namespace buckens::loads {
 /// In a ball the bound holds for the whole vector of the torque; in a cross joint for each of its
 /// two arms. States: the rotation of the second marker in the first, and the strain: a vector in
 /// axes of the first marker, or one number per arm. Theory: docs/theory/22-rows.md §4.
-class BallFriction final : public ForceElement, public ReactionFollower {
+class BallFriction final : public ForceElement, public ReactionFollower, public TurningFriction {
  public:
   /// Arms of a cross joint: unit vectors in the first and in the second marker.
   struct Arms {
@@ -38,23 +39,11 @@ class BallFriction final : public ForceElement, public ReactionFollower {
   void append_slopes(const Sight& sight, int regime,
                      std::vector<spatial::Wrench>& slopes) const override;
   double most_at_rest(const Sight& sight) const override;
-  /// Whether the bound is that of each arm of a cross joint, not of the whole torque.
-  bool has_arms() const { return arms_.has_value(); }
+  bool has_arms() const override { return arms_.has_value(); }
   int num_states() const override { return 7; }
   void start_states(const Sight& sight, double* states) const override;
   void find_states(const Sight& sight, double* states) const override;
-
-  /// Its torque as its soft rows have it, and what its bound keeps back of it.
-  struct Rub {
-    Eigen::Vector3d dry = Eigen::Vector3d::Zero();     ///< without the viscous part [N m]
-    Eigen::Vector3d excess = Eigen::Vector3d::Zero();  ///< that the bound keeps back [N m]
-    std::array<bool, 3> slides{};
-    double stiffness = 0, damping = 0;  ///< of all of it
-  };
-  Rub rub(const Sight& sight) const;
-  /// Which of its rows slide against the direction in which they slid at another instant of the
-  /// same step: all or none of a ball, each alone of a cross joint.
-  std::array<bool, 3> reversed(const Rub& before, const Rub& now) const;
+  Rub rub(const Sight& sight) const override;
 
  private:
   /// Torques along directions of the world, one after the other.

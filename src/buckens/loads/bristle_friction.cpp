@@ -2,67 +2,9 @@
 #include "buckens/loads/bristle_friction.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 
 namespace buckens::loads {
-
-namespace {
-
-/// dz/ds of bristles where s grows. @param sliding deflection f_s/σ₀ at which they slide
-double slope_of_bristles(double z, double sliding, double elastic_share) {
-  const double filled = z / sliding;
-  // Bent against the way: elastic, but for LuGre's law itself, where they straighten faster.
-  if (filled <= 0.0) return elastic_share > 0.0 ? 1.0 : 1.0 - filled;
-  double alpha = 1.0;
-  if (elastic_share > 0.0) {
-    if (filled <= elastic_share) return 1.0;
-    const double middle = 0.5 * (1.0 + elastic_share);
-    const double width = 1.0 - elastic_share;
-    if (filled < 1.0 && width > 0.0) {
-      alpha = 0.5 + 0.5 * std::sin(std::numbers::pi * (filled - middle) / width);
-    }
-  }
-  return 1.0 - alpha * filled;
-}
-
-// Parts of the deflection at which bristles slide that one step of their integration covers, and
-// way over which they have surely come to slide.
-constexpr double kPartOfBend = 0.1;
-constexpr double kSurelySliding = 60.0;
-// A bound that all but vanishes within a step counts as this share of its mean.
-constexpr double kLeastBound = 0.1;
-
-/// Deflection after a way along which they were bent by z.
-/// @param sliding deflections at which they slide, at its start and at its end
-double bent_over(double way, double z, const std::array<double, 2>& sliding, double elastic_share) {
-  const double from = sliding[0], to = sliding[1];
-  if (way > kSurelySliding * std::max(from, to)) return to;
-  if (way == 0.0) return z;
-  const double mean = 0.5 * (from + to);
-  const int count = static_cast<int>(std::ceil(way / (kPartOfBend * mean)));
-  const double ds = way / count;
-  const auto slope = [&](double part, double bent) {
-    const double now = from + (to - from) * part / count;
-    return slope_of_bristles(bent, std::max(now, kLeastBound * mean), elastic_share);
-  };
-  for (int k = 0; k < count; ++k) {  // Runge-Kutta
-    const double a = slope(k, z);
-    const double b = slope(k + 0.5, z + 0.5 * ds * a);
-    const double c = slope(k + 0.5, z + 0.5 * ds * b);
-    const double d = slope(k + 1, z + ds * c);
-    z += ds / 6.0 * (a + 2.0 * b + 2.0 * c + d);
-  }
-  return way > kSurelySliding * to ? std::min(z, to) : z;
-}
-
-// Slope dz/ds above which they count as elastic; below half of it they nearly slide.
-constexpr double kHardlyBent = 0.5;
-// Of differences by the load: far above rounding, and what they leave out is of its square.
-constexpr double kHeavier = 1e-6;
-
-}  // namespace
 
 BristleFriction::Bend BristleFriction::bend(const Sight& sight) const {
   const double rate = sight.coordinate.rate;

@@ -4,16 +4,10 @@
 #include <optional>
 #include <utility>
 
+#include "buckens/loads/bristle_bending.h"
 #include "buckens/loads/joint_friction.h"
 
 namespace buckens::loads {
-
-/// Parameters of LuGre's bristles.
-struct BristleData {
-  double stiffness = 0;      ///< σ₀ [N/m] or [N m/rad]
-  double damping = 0;        ///< σ₁ [N s/m] or [N m s/rad]
-  double elastic_share = 0;  ///< κ
-};
 
 /// Dry friction by bending bristles: LuGre's law in the elasto-plastic form of Dupont et al.
 /// (2002). With the deflection z and f_s the bound b of FrictionBound,

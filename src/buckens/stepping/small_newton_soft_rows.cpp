@@ -109,8 +109,9 @@ void SmallNewton::add_slopes_of_mixes() {
     const loads::RowMix& inverse = inverse_mixes_.emplace_back(R.inverse());
     const int first = soft_.first_of_mix[m], count = static_cast<int>(R.rows());
     for (int i = 0; i < count; ++i) {
-      mix_of_row_[static_cast<std::size_t>(first + i)] = static_cast<int>(m);
-      if (soft_.stiffness[static_cast<std::size_t>(first + i)] == 0.0) continue;
+      const auto soft = static_cast<std::size_t>(first + i);
+      mix_of_row_[soft] = static_cast<int>(m);
+      if (stiffness_in_step(scheme_, soft_.stiffness[soft], soft_.damping[soft]) == 0.0) continue;
       for (int j = 0; j < count; ++j) {
         const double value = (i == j ? 1.0 : 0.0) - inverse(i, j);
         if (value == 0.0) continue;

@@ -24,7 +24,7 @@ TurningBalls::TurningBalls(const model::Model& model) : model_(model) {
   int soft = 0;
   for (std::size_t k = 0; k < model.loads.size(); ++k) {
     const model::Load& load = model.loads[k];
-    const auto* ball = dynamic_cast<const loads::BallFriction*>(load.element.get());
+    const auto* ball = dynamic_cast<const loads::TurningFriction*>(load.element.get());
     if (ball != nullptr) balls_.push_back({k, regime, soft, ball, {}});
     if (dynamics::has_regimes(load)) ++regime;
     soft += load.element->num_soft_rows();
@@ -32,9 +32,10 @@ TurningBalls::TurningBalls(const model::Model& model) : model_(model) {
   held_.reserve(3 * balls_.size());
 }
 
-loads::BallFriction::Rub TurningBalls::rub(const Ball& ball,
-                                           const std::vector<dynamics::BodyMotion>& motions,
-                                           double t, const dynamics::Circumstances& around) const {
+loads::TurningFriction::Rub TurningBalls::rub(const Ball& ball,
+                                              const std::vector<dynamics::BodyMotion>& motions,
+                                              double t,
+                                              const dynamics::Circumstances& around) const {
   if (around.memory != nullptr && around.memory->is_off(ball.load)) return {};
   const dynamics::LoadEnds ends =
       dynamics::ends_of(model_, model_.loads[ball.load], motions, around.memory);
@@ -50,7 +51,7 @@ TurningBalls::Sliding TurningBalls::look(const std::vector<dynamics::BodyMotion>
                                          const dynamics::Circumstances& around) const {
   Sliding out;
   for (const Ball& ball : balls_) {
-    const loads::BallFriction::Rub now = rub(ball, motions, t, around);
+    const loads::TurningFriction::Rub now = rub(ball, motions, t, around);
     for (std::size_t k = 0; k < now.slides.size(); ++k) {
       out.any = out.any || now.slides[k];
       out.has_reversed = out.has_reversed || ball.element->reversed(ball.noted, now)[k];
@@ -65,7 +66,7 @@ void TurningBalls::hold_reversed(const std::vector<dynamics::BodyMotion>& motion
   held_.clear();
   for (std::size_t b = 0; b < balls_.size(); ++b) {
     Ball& ball = balls_[b];
-    loads::BallFriction::Rub now = rub(ball, motions, t, around);
+    loads::TurningFriction::Rub now = rub(ball, motions, t, around);
     const std::array<bool, 3> reversed = ball.element->reversed(ball.noted, now);
     for (std::size_t k = 0; k < reversed.size(); ++k) {
       if (!reversed[k] || !(now.stiffness > 0.0 || now.damping > 0.0)) continue;

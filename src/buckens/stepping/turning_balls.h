@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "buckens/dynamics/forces.h"
-#include "buckens/loads/ball_friction.h"
+#include "buckens/loads/turning_friction.h"
 
 namespace buckens::stepping {
 
@@ -44,15 +44,16 @@ class TurningBalls {
   struct Ball {
     std::size_t load, regime;  // its places in Model::loads and Forces::regimes
     int soft;                  // the first of its soft rows
-    const loads::BallFriction* element;
-    loads::BallFriction::Rub noted;
+    const loads::TurningFriction* element;
+    loads::TurningFriction::Rub noted;
   };
   struct Held {
     std::size_t ball;
     int row;  // among its own
   };
-  loads::BallFriction::Rub rub(const Ball& ball, const std::vector<dynamics::BodyMotion>& motions,
-                               double t, const dynamics::Circumstances& around) const;
+  loads::TurningFriction::Rub rub(const Ball& ball,
+                                  const std::vector<dynamics::BodyMotion>& motions, double t,
+                                  const dynamics::Circumstances& around) const;
 
   const model::Model& model_;
   std::vector<Ball> balls_;

@@ -11,6 +11,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/loads/applied_load.h"
+#include "buckens/loads/ball_bristles.h"
 #include "buckens/loads/ball_friction.h"
 #include "buckens/loads/coordinate_law.h"
 #include "buckens/loads/rigid_law.h"
@@ -199,6 +200,12 @@ class LoadBuilder {
     data.slip = kind.slip.value_or(kSlipAngle);
     data.radius = kind.radius;
     data.inertia = moved_inertia(model, joint);
+    if (kind.stick == loads::FrictionStick::bristles) {
+      const loads::BristleData bristles{*kind.bristle_stiffness, kind.bristle_damping.value_or(0.0),
+                                        kind.elastic_share};
+      load.element = std::make_unique<loads::BallBristles>(data, bristles, friction_laws(kind));
+      return;
+    }
     std::optional<loads::BallFriction::Arms> arms;
     if (joint.type == joints::JointType::universal) {
       const joints::ConstraintRow& cross = joint.rows.back();

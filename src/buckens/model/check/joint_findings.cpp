@@ -325,10 +325,15 @@ Found own_joint_problem(const loads::BallFrictionSpec& spec, const ModelDescript
                                "use `hinge-friction` or `slide-friction`",
                                spec.joint, joint.kind_name())};
   }
-  if (spec.stick != loads::FrictionStick::elastic) {
+  if (is_cross && spec.stick != loads::FrictionStick::elastic) {
     return Finding{"stick",
-                   "a ball or cross joint sticks by a stiff spring; remove this key, or write "
-                   "`stick: elastic`"};
+                   "a cross joint sticks by a stiff spring; remove this key, or write `stick: "
+                   "elastic`"};
+  }
+  if (spec.stick == loads::FrictionStick::rigid) {
+    return Finding{"stick",
+                   "a ball sticks by a stiff spring or by bristles; remove this key, or write "
+                   "`stick: elastic` or `stick: bristles`"};
   }
   if (spec.length) {
     return Finding{"bearing-length", "balls and crosses carry no bending moments; remove this key"};
