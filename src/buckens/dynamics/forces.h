@@ -93,24 +93,6 @@ struct SoftRows {
   /// Forgets all rows and what belongs to them.
   void clear();
 };
-/// Calls f(i, j, share) for all rows that act, the share of what row j alone would give that row i
-/// gives: rows that act alone, share 1, and those of mixes.
-template <class F>
-void for_shares(const SoftRows& soft, F&& f) {
-  std::size_t mix = 0;
-  for (int k = 0; k < static_cast<int>(soft.rows.size()); ++k) {
-    if (mix == soft.mixes.size() || soft.first_of_mix[mix] != k) {
-      f(k, k, 1.0);
-      continue;
-    }
-    const loads::RowMix& R = soft.mixes[mix++];
-    const int count = static_cast<int>(R.rows());
-    for (int i = 0; i < count; ++i) {
-      for (int j = 0; j < count; ++j) f(k + i, k + j, R(i, j));
-    }
-    k += count - 1;
-  }
-}
 
 /// @param followers null, or forces that grow with reactions: `slopes` says how, in the order of
 /// the rows
