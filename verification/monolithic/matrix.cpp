@@ -39,6 +39,25 @@ std::vector<MonolithicStepper::Entry> MonolithicStepper::entries(
 
 namespace {
 
+/// Calls f(i, j, share) for all rows that act, the share of what row j alone would give that row i
+/// gives: rows that act alone, share 1, and those of mixes.
+template <class F>
+void for_shares(const dynamics::SoftRows& soft, F&& f) {
+  std::size_t mix = 0;
+  for (int k = 0; k < static_cast<int>(soft.rows.size()); ++k) {
+    if (mix == soft.mixes.size() || soft.first_of_mix[mix] != k) {
+      f(k, k, 1.0);
+      continue;
+    }
+    const loads::RowMix& R = soft.mixes[mix++];
+    const int count = static_cast<int>(R.rows());
+    for (int i = 0; i < count; ++i) {
+      for (int j = 0; j < count; ++j) f(k + i, k + j, R(i, j));
+    }
+    k += count - 1;
+  }
+}
+
 void add_block(std::vector<Triplet>& out, int row, int column, double factor,
                const SparseMatrix& A) {
   for (int k = 0; k < A.outerSize(); ++k) {
@@ -150,7 +169,7 @@ void MonolithicStepper::tangent(std::vector<Triplet>& out) const {
   }
   std::vector<std::vector<Entry>> soft;
   for (const dynamics::SystemRow& row : soft_.rows) soft.push_back(entries(row));
-  dynamics::for_shares(soft_, [&](int on, int by, double share) {
+  for_shares(soft_, [&](int on, int by, double share) {
     const auto k = static_cast<std::size_t>(by);
     const double elastic = share * scheme_.force * scheme_.weight * soft_.stiffness[k];
     const double both = elastic + share * scheme_.force * scheme_.mean_rate * soft_.damping[k];
