@@ -171,9 +171,9 @@ std::optional<SolidInertia> solids_elsewhere(Blocks& blocks, const MeshView& mes
 
 /// @return the part of M that is not in Σ W_aa
 SparseMatrix integrate_inertia(Blocks blocks, const MeshView& mesh, FeModel& fe) {
-  const std::optional<SolidInertia> solids = solids_elsewhere(blocks, mesh);
   MassMoment moment;
-  if (solids) solids->add_mass(moment);
+  // In this process: the frame is in the mass centre, and a run may go on in another number of
+  // processes. There, a frame beside its place by rounding would open joints.
   for (const auto& block : blocks) block->add_mass(mesh.nodes, moment);
   if (!(moment.mass > 0.0)) {
     throw ModelError("the mesh has no mass; give a material a density or add a point mass");
@@ -183,6 +183,7 @@ SparseMatrix integrate_inertia(Blocks blocks, const MeshView& mesh, FeModel& fe)
   shape.com = moment.first / moment.mass;
 
   const int n = mesh.dofs.num_dofs;
+  const std::optional<SolidInertia> solids = solids_elsewhere(blocks, mesh);
   AssembledInertia inertia = assemble_inertia(blocks, mesh, shape.com);
   InertiaSum& sum = inertia.sum;
   if (solids) {

@@ -13,16 +13,6 @@ using linalg::Vector;
 SolidInertia::SolidInertia(linalg::SymmetricMatrix Ms, const std::vector<Node>& nodes)
     : Ms_(std::move(Ms)), nodes_(&nodes) {}
 
-void SolidInertia::add_mass(MassMoment& sum) const {
-  const Vector ones = Vector::Ones(Ms_.rows());
-  Vector share(Ms_.rows());
-  linalg::multiply({{&Ms_, &ones, &share}});
-  sum.mass += share.sum();
-  for (std::size_t node = 0; node < nodes_->size(); ++node) {
-    sum.first += share[static_cast<Eigen::Index>(node)] * (*nodes_)[node].position;
-  }
-}
-
 void SolidInertia::add_moments(const DofMap& dofs, const Eigen::Vector3d& com,
                                InertiaSum& sum) const {
   std::array<Vector, 3> x0, moment;  // of the nodes; Σ_J Ms_IJ x0_J

@@ -12,8 +12,8 @@ namespace buckens::fem {
 
 /// Inertia integrals over the solids of a mesh, as products with their scalar mass matrix Ms.
 ///
-/// Shape functions add up to one and reproduce the position, so that mass, first moments, c and C0
-/// are sums of 1, x and Ms: no element is integrated again. Where several processes share the work,
+/// Shape functions reproduce the position, so that c and C0 are sums of x and Ms: no element is
+/// integrated again. Where several processes share the work,
 /// each of the others makes the columns of Ms of its nodes, from the elements around them, and adds
 /// its share to the products. Shares are added in the order of the processes.
 class SolidInertia {
@@ -22,7 +22,6 @@ class SolidInertia {
   /// @param nodes outlive this object
   SolidInertia(linalg::SymmetricMatrix Ms, const std::vector<Node>& nodes);
 
-  void add_mass(MassMoment& sum) const;
   /// Adds to c and C0. @param com mass centre of the whole body in model axes [m]
   void add_moments(const DofMap& dofs, const Eigen::Vector3d& com, InertiaSum& sum) const;
   /// In this process, with the bits of an assembly there.
