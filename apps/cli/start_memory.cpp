@@ -19,7 +19,7 @@ namespace {
 // Before main() begins, OpenBLAS takes as much for each of its threads, and tries again without end
 // where it gets none.
 constexpr std::size_t kPerThread = std::size_t{128} << 20U;
-constexpr long kMostThreads = 128;
+constexpr long kMostThreads = 128;  // of Debian's OpenBLAS, whatever the machine has
 // What the start of all libraries needs besides.
 constexpr std::size_t kBesides = std::size_t{16} << 20U;
 // What the program needs besides to run small models [kB].

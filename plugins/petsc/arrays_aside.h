@@ -24,11 +24,11 @@ class ArraysAside {
     const std::size_t count = array.size();
     const off_t at = end_;
     if (count * sizeof(T) < kLeast || !write(array.data(), count * sizeof(T))) return;
-    std::vector<T>().swap(array);
     returns_.push_back([this, &array, count, at] {
       array.resize(count);
       return read(array.data(), count * sizeof(T), at);
     });
+    std::vector<T>().swap(array);  // at last: where there was no memory for the above, it stays
   }
 
   /// Fills all arrays again. @return whether the disk gave them back

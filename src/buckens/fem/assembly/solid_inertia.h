@@ -13,9 +13,10 @@ namespace buckens::fem {
 /// Inertia integrals over the solids of a mesh, as products with their scalar mass matrix Ms.
 ///
 /// Shape functions reproduce the position, so that c and C0 are sums of x and Ms: no element is
-/// integrated again. Where several processes share the work,
-/// each of the others makes the columns of Ms of its nodes, from the elements around them, and adds
-/// its share to the products. Shares are added in the order of the processes.
+/// integrated again. Where several processes share the work, each of the others makes the columns
+/// of Ms of its nodes, from the elements around them, and adds its share to the products. Shares
+/// are added in the order of the processes. Mass and mass centre are integrated by the first one
+/// alone.
 class SolidInertia {
  public:
   /// @param Ms N×N, divided or not
