@@ -27,7 +27,7 @@ ELSEWHERE = {
     "ctest --preset release": ("test.sh", "ctest --preset release"),
     "cmake -S examples/cpp": ("tests/install/run.cmake", '-S "${examples}"'),
     "cmake --build build-cpp": ("tests/install/run.cmake", '--build "${work}/examples"'),
-    "build-cpp/pendulum": ("tests/install/run.cmake", 'run("${work}/examples/pendulum")'),
+    "build-cpp/pendulum": ("tests/install/run.cmake", 'run("${work}/examples/pendulum"'),
     "export PYTHONPATH": ("tests/test_python_examples.py", '"PYTHONPATH": '),
     "python3 examples/python/flexible_arm.py": ("tests/test_python_package.py", "call(PYTHON, script"),
     "python3 examples/python/rod_taper.py": ("tests/test_python_examples.py", 'run("rod_taper.py"'),

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A uniform rod falls from the horizontal about a hinge at its end. The model is made in code and
 // advanced step by step until the rod hangs down; then the state is saved, and a second simulation
-// goes on from it.
+// goes on from it. `pendulum OUT` records the motion in the run directory OUT, for `buckens view`.
 #include <cmath>
 #include <cstdio>
 
 #include <buckens/buckens.h>
 
-int main() {
+int main(int argc, char** argv) {
   constexpr double g = 9.81, length = 1, mass = 2;
 
   buckens::ModelBuilder model("Falling rod");
@@ -33,4 +33,11 @@ int main() {
   simulation.run();
   second.run();
   std::printf("difference %g rad\n", second.sensor("angle")[0] - simulation.sensor("angle")[0]);
+
+  if (argc > 1) {
+    buckens::RunDirectory directory(argv[1], {"Falling rod", "", {}});
+    buckens::Simulation recorded(*built);
+    recorded.record_into(directory);
+    recorded.run();
+  }
 }

@@ -39,7 +39,7 @@ function(expect pattern least most)
   endif()
 endfunction()
 
-run("${work}/examples/pendulum")
+run("${work}/examples/pendulum" "${work}/falling-rod")
 message(STATUS "${run_output}")
 # √(3 g/L) = 5.424942; within the step in which the rod passes its lowest place the speed is that to
 # 1e-5, and the method's error is of the order (w h)².
@@ -62,6 +62,8 @@ expect("diameter 0.012 sag ([0-9.e+-]+) exact" 2.044e-3 2.050e-3)
 expect("diameter 0.008 .* m frequency ([0-9.]+) exact 22.59" 22.4 22.8)
 
 if(EXISTS "${prefix}/bin/buckens")
+  # What a program has recorded is a run directory like any other.
+  run("${prefix}/bin/buckens" view "${work}/falling-rod" -o "${work}/falling-rod.html")
   run("${prefix}/bin/buckens" version)
   if(NOT run_output MATCHES "${VERSION}")
     message(FATAL_ERROR "the installed program names another version than ${VERSION}: ${run_output}")

@@ -33,6 +33,7 @@ class Picture:
     size: tuple = (1280, 800)
     fixture: str = ""  # a synthetic page of viewer/tests/fixture.mjs in place of runs
     script: str = ""  # in Python, which gets a run directory, in place of runs
+    cpp: str = ""  # program of examples/cpp, which gets a run directory, in place of runs
 
 
 @dataclasses.dataclass(frozen=True)
@@ -90,6 +91,7 @@ PICTURES = (
                               "--set", "parameters.n=2"),), time=0.72),
     Picture("snap_through_bending", (("static", "examples/snap_through_bending/snap_through_bending.yaml"),), time=0.1),
     Picture("python", script="examples/python/flexible_arm.py", time=0.1, view=("--scale", "15")),
+    Picture("cpp", cpp="pendulum", time=0.35),
     Picture("page_side_by_side", (("run", CRANK), ("run", CRANK, "--set", "bodies.rod.beam.elements=4")),
             folders=("fine", "coarse"), time=0.055),
     Picture("page_dark", fixture="large", time=0.22,
@@ -117,6 +119,15 @@ def call(*arguments, **environment):
                    env={**os.environ, **environment})
 
 
+def compiled(name, build, folder):
+    """A program of examples/cpp, built against what is installed from a build directory."""
+    call("cmake", "--install", build, "--prefix", folder / "prefix")
+    call("cmake", "-S", "examples/cpp", "-B", folder / "cpp", f"-DCMAKE_PREFIX_PATH={folder / 'prefix'}",
+         "-DCMAKE_BUILD_TYPE=Release")
+    call("cmake", "--build", folder / "cpp", "--target", name)
+    return folder / "cpp" / name
+
+
 def page_of(picture, program, folder):
     """Writes the page for a picture."""
     page = folder / "page.html"
@@ -128,6 +139,9 @@ def page_of(picture, program, folder):
         directories.append(folder / "out")
         module = program.parents[1] / "python"
         call(sys.executable, picture.script, directories[-1], PYTHONPATH=str(module), BUCKENS_PROGRAM=str(program))
+    if picture.cpp:
+        directories.append(folder / "out")
+        call(compiled(picture.cpp, program.parents[1], folder), directories[-1])
     for name, (verb, model, *options) in zip(picture.folders if picture.runs else (), picture.runs, strict=True):
         directories.append(folder / name)
         call(program, verb, model, *options, "-o", directories[-1])
