@@ -3,10 +3,12 @@
 // set-up with few and many interface variables, and memory.
 //
 //     solid_step_bench hex8:274,10,10 [--levels none,first-order,full] [--threads 1,2]
-//                      [--budget SECONDS] [--setup] [--no-reference]
+//                      [--budget SECONDS] [--before STEPS] [--setup] [--no-reference]
 //
-// Prints one JSON object. Times are the shortest of several [s], those of steps among steps with
-// the usual number of large solves; CHOLMOD's time is measured before and after the steps.
+// Those with `full` are measured after STEPS others, 100 by default, which gather the pairs that
+// later solves are combined from. Prints one JSON object. Times are the shortest of several [s],
+// those of steps among steps with the usual number of large solves; CHOLMOD's time is measured
+// before and after the steps.
 
 #include <algorithm>
 #include <iostream>
@@ -46,6 +48,7 @@ struct Wanted {
   std::vector<std::string> levels = {"none", "first-order", "full"};
   std::vector<std::string> threads = {"1", "2"};
   double budget = 2.0;
+  long before = 100;  // steps of `full` that are not measured
   bool setup = false;
   bool with_reference = true;
 };
@@ -87,41 +90,49 @@ buckens::linalg::SparseMatrix step_matrix(const buckens::body::FlexiblePart& par
 }
 
 /// Steps that took the same number of large solves.
-struct AlikeSteps {
-  long count = 0;
-  double shortest = 0;  // [s]
-};
+using AlikeSteps = std::vector<double>;  // [s]
 
-json measure_level(Running& run, const std::string& level, int threads, double budget) {
-  constexpr long kLeast = 3;
+/// The shortest, the first quartile, the median and the third quartile.
+json quartiles_of(AlikeSteps times) {
+  std::sort(times.begin(), times.end());
+  json out;
+  for (const std::size_t quarter : {0, 1, 2, 3}) {
+    out.push_back(times[quarter * (times.size() - 1) / 4]);
+  }
+  return out;
+}
+
+json measure_level(Running& run, const std::string& level, int threads, const Wanted& wanted) {
+  constexpr long kLeast = 3, kBefore = 4;
   buckens::model::State& state = run.prepared.state;
   state.bodies[0].terms = terms_of(level);
   state.history = 0;
   run.stepper->use_threads(threads);
-  for (int k = 0; k < 4; ++k) run.stepper->step(state);
+  const long num_before = level == "full" ? wanted.before : kBefore;
+  for (long k = 0; k < num_before; ++k) run.stepper->step(state);
   const long solves = run.stepper->counts(0).solves;
   const auto before = run.stepper->seconds();
   const long recycled = run.stepper->counts(0).recycled;
   long count = 0;
   double all_steps = 0;
   std::map<long, AlikeSteps> by_solves;
-  for (const Stopwatch all; count < kLeast || all.seconds() < budget; ++count) {
+  for (const Stopwatch all; count < kLeast || all.seconds() < wanted.budget; ++count) {
     const long solved = run.stepper->counts(0).solves;
     const Stopwatch one;
     run.stepper->step(state);
     const double seconds = one.seconds();
     all_steps += seconds;
-    AlikeSteps& alike = by_solves[run.stepper->counts(0).solves - solved];
-    if (alike.count++ == 0 || seconds < alike.shortest) alike.shortest = seconds;
+    by_solves[run.stepper->counts(0).solves - solved].push_back(seconds);
   }
   // A step that happens to need fewer solves than most is not representative.
   const auto usual = std::max_element(
       by_solves.begin(), by_solves.end(),
-      [](const auto& a, const auto& b) { return a.second.count < b.second.count; });
+      [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
   const auto after = run.stepper->seconds();
   const auto steps = static_cast<double>(count);
   json out = {{"level", level}, {"threads", threads}};
-  out["step"] = usual->second.shortest;
+  out["quartiles"] = quartiles_of(usual->second);
+  out["step"] = out["quartiles"][0];
   out["mean_step"] = all_steps / steps;
   out["usual_solves"] = usual->first;
   out["steps"] = count;
@@ -152,7 +163,7 @@ json measure_steps(const Wanted& wanted) {
   json levels;
   for (const std::string& level : wanted.levels) {
     for (const std::string& threads : wanted.threads) {
-      levels.push_back(measure_level(run, level, std::stoi(threads), wanted.budget));
+      levels.push_back(measure_level(run, level, std::stoi(threads), wanted));
     }
   }
   if (reference) {  // others may have come or gone meanwhile
@@ -193,6 +204,8 @@ Wanted read_arguments(int argc, char** argv) {
       out.threads = split(argv[++k]);
     } else if (key == "--budget" && has_value) {
       out.budget = std::stod(argv[++k]);
+    } else if (key == "--before" && has_value) {
+      out.before = std::stol(argv[++k]);
     } else if (key == "--setup") {
       out.setup = true;
     } else if (key == "--no-reference") {

@@ -110,7 +110,11 @@ BENCHMARK(planar_beam_step)
     ->Range(8, 2048)
     ->Arg(128)
     ->Unit(benchmark::kMicrosecond);
-BENCHMARK(divided_beam_step)->RangeMultiplier(4)->Range(8, 2048)->Unit(benchmark::kMicrosecond);
+BENCHMARK(divided_beam_step)
+    ->RangeMultiplier(4)
+    ->Range(8, 2048)
+    ->Arg(128)
+    ->Unit(benchmark::kMicrosecond);
 BENCHMARK(divided_tree_step)->DenseRange(3, 11, 2)->Unit(benchmark::kMicrosecond);
 
 }  // namespace

@@ -10,6 +10,8 @@ import json
 import pathlib
 import sys
 
+import goals
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BEGIN, END = "<!-- bench:begin -->", "<!-- bench:end -->"
 
@@ -249,6 +251,19 @@ def memory_table(results):
             "accounts for.", "", *lines_of(head, cells), *failures(rows)]
 
 
+def goal_table(results):
+    rows = goals.goal_rows(results)
+    if not rows:
+        return []
+    head = ["what", "goal", "shortest", "median (spread)", "bound", "peer, on another machine", "met"]
+    return ["### Goals", "",
+            "On one thread unless said otherwise. Spreads are quartiles of steps for solids, and ranges of three repetitions for the others. "
+            "`bound`, in the unit of the measured value: for `full`, one solve, at 30 000 variables "
+            "and more as its factor is read twice at the bandwidth of the same run, below as measured; for variants, one variant plus "
+            "what additional columns of a solve take, and nothing else; for threads, the largest share of the factor that one of them "
+            "reads.", "", *lines_of(head, rows)]
+
+
 def origin(results):
     """When and where; sections measured elsewhere than most are named."""
     machines = {}
@@ -267,7 +282,7 @@ def origin(results):
 def tables(results):
     frame = {"frames": "frames", "per frame": "per frame [µs]", "newton/step": "iterations"}
     return [
-        origin(results), "", *factor_table(results), *solve_table(results), *tree_table(results), *step_table(results), *setup_table(results),
+        origin(results), "", *goal_table(results), *factor_table(results), *solve_table(results), *tree_table(results), *step_table(results), *setup_table(results),
         *mode_table(results),
         *google_table("Reduced body on a ball joint", results, "reduced", "reduced_step",
                       {"solves/step": "divisions by K̂", "newton/step": "iterations"}),
