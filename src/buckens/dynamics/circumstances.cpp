@@ -33,26 +33,37 @@ loads::RowStand stand_of(const model::Model& model, std::size_t k, const Circums
   return {static_cast<int>(states[0]), states[1]};
 }
 
+/// Force of the rigid row of a law.
+double force_of_row(const model::Model& model, std::size_t k, const Circumstances& around) {
+  const bool has_memory = around.memory != nullptr && around.memory->laws.size() > 0;
+  const double* const laws = has_memory ? around.memory->laws.data() : nullptr;
+  return stand_of(model, k, around, laws != nullptr ? laws + model.loads[k].first_state : nullptr)
+      .force;
+}
+
+/// Torque on the second marker of a ball whose friction is three rigid rows, of all of them.
+/// @param row which of the three the load is, @param R_WF axes of the first marker
+Eigen::Vector3d torque_of_ball(const model::Model& model, std::size_t load, int row,
+                               const Circumstances& around, const Eigen::Matrix3d& R_WF) {
+  const std::size_t first = load - static_cast<std::size_t>(row);
+  return R_WF * Eigen::Vector3d(force_of_row(model, first, around),
+                                force_of_row(model, first + 1, around),
+                                force_of_row(model, first + 2, around));
+}
+
 /// Force on the second body of a rigid contact: of the row across the surface, which is that of the
 /// load before the directions of friction, and of these.
 spatial::Wrench reaction_of(const model::Model& model, std::size_t load,
                             const Circumstances& around, const loads::Sight& sight,
                             const loads::ContactFriction& friction) {
   const std::size_t across = load - 1 - static_cast<std::size_t>(friction.direction());
-  const auto force_of = [&](std::size_t k) {
-    const model::Load& own = model.loads[k];
-    const bool has_memory = around.memory != nullptr && around.memory->laws.size() > 0;
-    return stand_of(model, k, around,
-                    has_memory ? around.memory->laws.data() + own.first_state : nullptr)
-        .force;
-  };
   const spatial::TouchPlace place = friction.touch().look(sight.first, sight.second);
   const auto& stop = static_cast<const loads::RigidLaw&>(*model.loads[across].element);
   spatial::Wrench out;
-  out.force = (stop.contact(0.0).sign * force_of(across)) * place.normal;
+  out.force = (stop.contact(0.0).sign * force_of_row(model, across, around)) * place.normal;
   for (int k = 0; k < friction.touch().num_directions(); ++k) {
     const auto direction = static_cast<std::size_t>(k);
-    out.force += force_of(across + 1 + direction) * place.along[direction];
+    out.force += force_of_row(model, across + 1 + direction, around) * place.along[direction];
   }
   return out;
 }
@@ -68,6 +79,9 @@ void tell_rest(const model::Model& model, std::size_t load, const Circumstances&
     sight.stand = stand_of(model, load, around, sight.states);
     const auto* friction = dynamic_cast<const loads::ContactFriction*>(own.element.get());
     if (friction != nullptr) sight.reaction = reaction_of(model, load, around, sight, *friction);
+    const int row = static_cast<const loads::RigidLaw&>(*own.element).row_of_ball();
+    // The joint itself transmits no torque.
+    if (row >= 0) sight.reaction.torque = torque_of_ball(model, load, row, around, sight.first.R);
   }
   sight.signals = signals_of(around);
 }

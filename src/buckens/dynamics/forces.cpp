@@ -269,7 +269,9 @@ void append_mix(const loads::ForceElement& element, const loads::Sight& sight, S
   loads::RowMix mix;
   if (!element.mix_rows(sight, mix)) return;
   out.mixes.push_back(mix);
-  out.first_of_mix.push_back(static_cast<int>(out.rows.size()));
+  // Of the last ones: those of a ball that sticks rigidly belong to three loads.
+  const auto end = static_cast<int>(out.rows.size()) + element.num_soft_rows();
+  out.first_of_mix.push_back(end - static_cast<int>(mix.rows()));
 }
 
 void SoftRows::clear() {

@@ -99,7 +99,8 @@ int JointSet::append_tangent(const Joint& joint, const Law& law, const Look& loo
       citing(own, [&] { return own.element->append_tangent_in_regime(sight, out.of_one); });
   if (is_off) give_nothing(out.of_one);
   if (law.regime >= 0) out.regimes.push_back(is_off ? 0 : regime);
-  if (!is_off && out.of_one.size() > 1) append_mix(*own.element, sight, out);
+  const bool may_mix = out.of_one.size() > 1 || own.rigid_row >= 0;
+  if (!is_off && may_mix) append_mix(*own.element, sight, out);
   for (const loads::SoftRow& row : out.of_one) {
     SystemRow& place = out.rows.emplace_back();
     derive(joint.first, look.F, {row.J.segment<3>(0).transpose(), row.J.segment<3>(3).transpose()},

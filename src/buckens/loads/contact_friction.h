@@ -30,8 +30,6 @@ struct ContactFrictionData {
 /// row across the surface; Sight::reaction is the force of all these rows.
 class ContactFriction final : public RigidLaw {
  public:
-  static constexpr int kHeldDirection = 3;
-
   /// @param direction 0, or 1 of a surface with two
   ContactFriction(const spatial::RigidTouch& touch, const ContactFrictionData& data, int direction,
                   const ContactSettings& settings = {})

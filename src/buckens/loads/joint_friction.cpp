@@ -76,6 +76,7 @@ double FrictionBound::load(const Sight& sight) const {
     out += data_.radius * across(torque) / (0.5 * data_.bearing_length);
   }
   if (data_.torque_radius > 0.0) out += along(torque) / data_.torque_radius;
+  if (data_.pins_radius > 0.0) out += data_.pins_radius * force.norm();
   return out;
 }
 
@@ -95,6 +96,7 @@ spatial::Wrench FrictionBound::load_slope(const Sight& sight, double factor) con
     out.torque += factor * data_.radius / (0.5 * data_.bearing_length) * across(torque);
   }
   if (data_.torque_radius > 0.0) out.torque += factor / data_.torque_radius * along(torque);
+  if (data_.pins_radius > 0.0) out.force += factor * data_.pins_radius * force.normalized();
   return out;
 }
 

@@ -25,6 +25,7 @@ struct FrictionData {
   double axial_radius = 0;    ///< for forces along the axis, of hinges
   double bearing_length = 0;  ///< that carries bending moments; 0: they are ignored
   double torque_radius = 0;   ///< at which sliding joints carry axial torque; 0: ignored
+  double pins_radius = 0;     ///< of the pins of a cross, which all of the force presses
 };
 
 /// How much a joint resists at one instant.

@@ -15,6 +15,10 @@ namespace buckens::loads {
 /// Theory: docs/theory/22-rows.md §5.
 class RigidLaw : public ForceElement {
  public:
+  /// Friction along several directions slides, from this regime on, in a direction that the step
+  /// has found; regime 2 is sliding against the slip.
+  static constexpr int kHeldDirection = 3;
+
   /// Nothing: the law needs its coordinate, see respond().
   Action evaluate(double t, const spatial::MarkerMotion& first,
                   const spatial::MarkerMotion& second) const final;
@@ -44,6 +48,9 @@ class RigidLaw : public ForceElement {
   /// of none. The rows along follow that across. Open, none of them does anything, nor closes
   /// before an impact.
   virtual int row_of_place() const { return -1; }
+  /// Which of the three rows of friction in a ball it is; −1: of none. They are the rigid rows of
+  /// successive loads, and stick or slide together.
+  virtual int row_of_ball() const { return -1; }
   /// A motor: its power comes from outside.
   virtual bool is_source() const { return false; }
   /// Of the coordinate while the row is closed, as far as laws of time and the motion say [m/s²] or

@@ -14,6 +14,7 @@
 #include "buckens/dynamics/forces.h"
 #include "buckens/fem/assembly/recovery.h"
 #include "buckens/fem/solid/recovery.h"
+#include "buckens/results/action_of_whole.h"
 #include "buckens/results/belt_sensor.h"
 #include "buckens/results/cable_sensor.h"
 #include "buckens/results/contact_sensor.h"
@@ -200,11 +201,9 @@ class JointSensor final : public Sensor {
  private:
   spatial::Wrench force_element(const Observation& now) const {
     const model::Load& load = now.model.loads[static_cast<std::size_t>(load_)];
-    const auto first = dynamics::evaluate_marker(now.model, load.first, now.motions).motion;
-    const auto second = dynamics::evaluate_marker(now.model, load.second, now.motions).motion;
-    spatial::Wrench out = dynamics::action_of(now.model, static_cast<std::size_t>(load_),
-                                              now.state.t, circumstances_of(now), first, second)
-                              .on_second;
+    const dynamics::LoadEnds ends =
+        dynamics::ends_of(now.model, load, now.motions, circumstances_of(now).memory);
+    spatial::Wrench out = action_of_whole(now, static_cast<std::size_t>(load_), ends).on_second;
     if (load.element->is_applied()) {
       out.force *= now.load_factor;
       out.torque *= now.load_factor;

@@ -9,10 +9,10 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
-#include "buckens/dynamics/travel.h"
 #include "buckens/loads/bushing.h"
-#include "buckens/loads/reaction_follower.h"
+#include "buckens/loads/joint_law_spec.h"
 #include "buckens/loads/spring_damper.h"
+#include "buckens/results/action_of_whole.h"
 
 namespace buckens::results {
 
@@ -33,9 +33,9 @@ class SpringSensor final : public Sensor {
   std::vector<Channel> channels() const override { return {channel_}; }
   void append(const Observation& now, std::vector<double>& values) override {
     const model::Load& load = now.model.loads[load_];
-    const dynamics::Circumstances around = circumstances_of(now);
-    const dynamics::LoadEnds ends = dynamics::ends_of(now.model, load, now.motions, around.memory);
-    const loads::Action action = dynamics::action_of(now.model, load_, now.state.t, around, ends);
+    const dynamics::LoadEnds ends =
+        dynamics::ends_of(now.model, load, now.motions, circumstances_of(now).memory);
+    const loads::Action action = action_of_whole(now, load_, ends);
     const spatial::MarkerMotion& first = ends.first.motion;
     const spatial::MarkerMotion& second = ends.second.motion;
     const Vector3d force = first.R.transpose() * action.on_first.force;
@@ -71,6 +71,9 @@ std::optional<SpringSensor::Part> part_of(const model::Model& model, const model
                                           bool torque) {
   using Part = SpringSensor::Part;
   const loads::ForceElement& element = *load.element;
+  if (load.kind == loads::BallFrictionSpec::kKey) {
+    return torque ? std::optional(Part::torque) : std::nullopt;
+  }
   if (load.coordinate >= 0) {
     const bool is_torque =
         model.coordinates[static_cast<std::size_t>(load.coordinate)].law.is_angle();
@@ -78,10 +81,6 @@ std::optional<SpringSensor::Part> part_of(const model::Model& model, const model
   }
   if (dynamic_cast<const loads::Bushing*>(&element) != nullptr) {
     return torque ? Part::torque : Part::force;
-  }
-  // Friction without a coordinate is that of a ball or of a cross.
-  if (torque && dynamic_cast<const loads::ReactionFollower*>(&element) != nullptr) {
-    return Part::torque;
   }
   if (!torque && dynamic_cast<const loads::SpringDamper*>(&element) != nullptr) {
     return Part::along_line;
@@ -110,7 +109,8 @@ std::unique_ptr<Sensor> make_spring_sensor(const model::BuiltModel& built,
         torque ? "N m" : "N",
         {},
         fmt::format("{} of {} {}, {}", torque ? "torque" : "force", load.kind, load.name,
-                    load.coordinate < 0 ? "tension positive" : "positive against its coordinate"),
+                    is_scalar && load.coordinate >= 0 ? "positive against its coordinate"
+                                                      : "tension positive"),
         {}};
     if (!is_scalar) {
       channel.shape = {3};

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "buckens/loads/contact_friction.h"
 #include "buckens/loads/rigid_law.h"
 #include "buckens/stepping/mesh_partners.h"
 
@@ -20,6 +19,14 @@ constexpr double kTurns = 0.25;
 // What a row that a mesh takes part in holds: an end, which only pushes, or a direction of friction
 // there. Open, neither does anything.
 enum : char { kNothing, kEnd, kAlong };
+
+// Along which directions friction slides: of a surface, or of all rotations of a ball. Others slide
+// forwards or backwards, if at all.
+enum : char { kToAndFro, kInSurface, kAllAround };
+
+char sliding_of(const loads::RigidLaw& law) {
+  return law.row_of_ball() >= 0 ? kAllAround : law.row_of_place() > 0 ? kInSurface : kToAndFro;
+}
 
 char held_by(const model::Load& load) {
   const auto& law = static_cast<const loads::RigidLaw&>(*load.element);
@@ -58,6 +65,7 @@ RigidRows::RigidRows(const model::Model& model, const Scheme* scheme) {
     loads_.push_back(static_cast<std::size_t>(&load - model.loads.data()));
     const bool moves_mesh = is_mesh(load.first.body) || is_mesh(load.second.body);
     is_on_mesh_.push_back(moves_mesh ? held_by(load) : kNothing);
+    slides_.push_back(sliding_of(static_cast<const loads::RigidLaw&>(*load.element)));
     const bool is_end = is_on_mesh_.back() == kEnd;
     turns_by_damping_.push_back(is_end && (turns(load.first.body) || turns(load.second.body)));
   }
@@ -141,11 +149,12 @@ bool RigidRows::have_changed() const {
     // What pulls at the end lets go there.
     const bool is_end = stands_[k].regime != 0 && is_on_mesh_[k] == kEnd;
     if (is_end && turns_at_end(stands_[k].force, released_[k])) return true;
-    // A direction of sliding that the step has held counts as the same regime.
-    if (std::min(stands_[k].regime, loads::ContactFriction::kHeldDirection - 1) !=
-        regimes_at_start_[k]) {
-      return true;
-    }
+    constexpr int kHeld = loads::RigidLaw::kHeldDirection;
+    if (slides_[k] == kAllAround && stands_[k].regime >= kHeld) return true;
+    // A direction in a surface that the step has held counts as the same regime.
+    const int regime =
+        slides_[k] == kInSurface ? std::min(stands_[k].regime, kHeld - 1) : stands_[k].regime;
+    if (regime != regimes_at_start_[k]) return true;
   }
   return false;
 }

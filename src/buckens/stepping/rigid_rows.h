@@ -48,7 +48,8 @@ class RigidRows {
   bool ends_have_turned() const;
   /// Regime changes in this step.
   int num_moves() const { return num_moves_; }
-  /// Whether any regime differs from that at the start of the step.
+  /// Whether any regime differs from that at the start of the step, or friction of a ball has
+  /// turned so far that accelerations have jumped.
   bool have_changed() const;
 
  private:
@@ -58,6 +59,7 @@ class RigidRows {
   std::vector<int> first_states_;       // in RowMemory::laws, per rigid row
   std::vector<std::size_t> loads_;      // index into Model::loads, per rigid row
   std::vector<char> is_on_mesh_;        // per rigid row: what it holds if a mesh is involved
+  std::vector<char> slides_;            // per rigid row: along which directions its friction does
   std::vector<char> turns_by_damping_;  // per rigid row: on a mesh whose damping reverses rates
   std::vector<loads::RowStand> stands_;
   std::vector<double> released_;  // force of a row that lets go in this step

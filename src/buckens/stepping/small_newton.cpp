@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -56,6 +57,8 @@ SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
       watch_(model),
       rigid_(model, &scheme_),
       cones_(model),
+      balls_(model),
+      decided_together_(cones_.rows()),
       held_(model),
       ending_(settings, model.length, dynamics::shortest_lever(model)),
       joints_(model),
@@ -64,6 +67,8 @@ SmallNewton::SmallNewton(const model::Model& model, const Scheme& scheme,
   std::sort(rows_in_use_.begin(), rows_in_use_.end());
   number_rows_in_use();
   has_laws_ = has_rows_with_laws(model);
+  std::transform(balls_.rows().begin(), balls_.rows().end(), decided_together_.begin(),
+                 decided_together_.begin(), std::bit_or<char>());
   const std::size_t count = model.bodies.size();
   for (auto* motions : {&end_, &evaluation_, &uncorrected_}) motions->resize(count);
   compliance_.resize(count);
@@ -290,9 +295,10 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
     const bool is_failing = !is_settled && (since_moved + 1 >= settings_.max_newton ||
                                             since_settled % kMostUnsettled == 0);
     if (is_settled || is_failing || is_restless(since_moved)) {
-      const bool has_moved =
-          is_settled ? move_rigid_rows(t, report)
-                     : (is_failing && let_jumping_go(change.size)) || decide_cones(t, report);
+      const bool has_moved = is_settled
+                                 ? move_rigid_rows(t, report)
+                                 : (is_failing && let_jumping_go(change.size)) ||
+                                       decide_cones(t, report) || decide_balls(t, report, false);
       if (is_settled && !has_moved) break;
       if (has_moved) {
         since_moved = 0;
@@ -320,7 +326,8 @@ void SmallNewton::settle(std::vector<BodyStep>& bodies, double t, Vector& lambda
     if (renew_slopes()) before = {};
     const bool is_slow = change.size > kTurnedTangent * size_before && size_before > 0.0;
     // The torque of a ball turns with its direction of sliding, and so does its tangent.
-    if (are_formed && is_slow && look_at_balls(t).any) form_tangent_anew(bodies, t, report);
+    const bool turns = is_slow && (look_at_balls(t).any || balls_.any_slides(rigid_));
+    if (are_formed && turns) form_tangent_anew(bodies, t, report);
     size_before = change.size;
     change = move(bodies, t, lambda, report);
   }

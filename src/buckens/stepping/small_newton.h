@@ -10,6 +10,7 @@
 #include "buckens/dynamics/joint_set.h"
 #include "buckens/dynamics/multiplier_condensation.h"
 #include "buckens/dynamics/reaction_slopes.h"
+#include "buckens/stepping/ball_cones.h"
 #include "buckens/stepping/body_iteration.h"
 #include "buckens/stepping/contact_cones.h"
 #include "buckens/stepping/held_laws.h"
@@ -163,13 +164,15 @@ class SmallNewton {
   bool move_rigid_rows(double t, const StepReport& report);
   /// Decides the stands of rigid contacts with friction. @return whether any has changed
   bool decide_cones(double t, const StepReport& report);
+  /// The same of balls that stick rigidly. @param is_settled whether all else has settled
+  bool decide_balls(double t, const StepReport& report, bool is_settled);
   /// Whether rigid rows may move on in this step.
   /// @throws StepFailure if they have moved too often, unless the last stands are accepted
   bool may_move(double t, const StepReport& report);
   /// Whether the iteration has gone on for so long that friction may alternate.
   bool is_restless(int iterations) const {
     constexpr int kRestless = 10;
-    return !cones_.empty() && iterations % kRestless == 0;
+    return !(cones_.empty() && balls_.empty()) && iterations % kRestless == 0;
   }
   /// Lets a contact go whose place alternates between two positions, so that its gap does not
   /// close; the contact there is found at the end of the step. @param change of the last iteration
@@ -219,6 +222,8 @@ class SmallNewton {
   dynamics::SignalValues steering_signals_;
   RigidRows rigid_;
   ContactCones cones_;
+  BallCones balls_;
+  std::vector<char> decided_together_;  // per rigid row: by cones_ or balls_
   HeldLaws held_;
   bool accepts_last_stands_ = false, has_accepted_stands_ = false;
   bool decides_first_ = false;

@@ -165,11 +165,13 @@ bool SmallNewton::move_rigid_rows(double t, const StepReport& report) {
   // Friction outside its cone would open other stops that remain pressed in the end.
   const bool are_held = cones_.empty() || cones_.hold(forces_.rigid, rigid_);
   if (!are_held && decide_cones(t, report)) return true;
-  return rigid_.move(forces_.rigid, cones_.rows());
+  const bool do_balls_hold = balls_.empty() || balls_.hold(forces_.rigid, rigid_);
+  if (!do_balls_hold && decide_balls(t, report, true)) return true;
+  return rigid_.move(forces_.rigid, decided_together_);
 }
 
 bool SmallNewton::decide_cones(double t, const StepReport& report) {
-  if (!may_move(t, report)) return false;
+  if (cones_.empty() || !may_move(t, report)) return false;
   try {
     const ContactCones::Instant now{forces_.rigid, soft_,          compliance_,  end_,
                                     rows_in_use_,  around_.memory, t + scheme_.h};
@@ -179,6 +181,15 @@ bool SmallNewton::decide_cones(double t, const StepReport& report) {
     if (accepts_last_stands_) return false;
     fail(t, report, "friction of rigid contacts jams, they need a `stiffness` or less `static`");
   }
+  rigid_.count_move();
+  return true;
+}
+
+bool SmallNewton::decide_balls(double t, const StepReport& report, bool is_settled) {
+  if (balls_.empty() || !may_move(t, report)) return false;
+  const BallCones::Instant now{forces_.rigid, soft_,   compliance_,   at_evaluation(),
+                               rows_in_use_,  around_, t + scheme_.h, is_settled};
+  if (!balls_.decide(now, scheme_.force, scheme_.end_rate, rigid_)) return false;
   rigid_.count_move();
   return true;
 }

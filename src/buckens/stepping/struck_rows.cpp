@@ -22,6 +22,28 @@ double speeds_along(const loads::Sight& sight) {
          std::abs(J.segment<3>(9).dot(sight.second.v));
 }
 
+/// How fast a ball turns, as a vector [rad/s].
+Eigen::Vector3d turning_of_ball(const loads::Sight& sight) {
+  return sight.second.w - sight.first.w;
+}
+
+/// What an impact has done to the rate that a law looks at: of a ball all of them, for its three
+/// rows to follow alike.
+struct Blow {
+  double change, rounding;  // [m/s] or [rad/s]
+};
+Blow blow_on(const loads::RigidLaw& law, const loads::Sight& before, const loads::Sight& after) {
+  if (law.row_of_ball() < 0) {
+    return {std::abs(after.coordinate.rate - before.coordinate.rate),
+            kRoundingOfStruck * (speeds_along(before) + speeds_along(after))};
+  }
+  double speeds = 0.0;
+  for (const loads::Sight* sight : {&before, &after}) {
+    speeds += sight->first.w.norm() + sight->second.w.norm();
+  }
+  return {(turning_of_ball(after) - turning_of_ball(before)).norm(), kRoundingOfStruck * speeds};
+}
+
 }  // namespace
 
 void follow_struck_rows(const model::Model& model, const std::vector<dynamics::BodyMotion>& before,
@@ -37,9 +59,9 @@ void follow_struck_rows(const model::Model& model, const std::vector<dynamics::B
     const dynamics::LoadEnds ends = dynamics::ends_of(model, load, after, around.memory);
     const loads::Sight struck = dynamics::sight_of(model, k, t, around, ends_before);
     loads::Sight sight = dynamics::sight_of(model, k, t, around, ends);
-    const double rounding = kRoundingOfStruck * (speeds_along(struck) + speeds_along(sight));
-    if (std::abs(sight.coordinate.rate - struck.coordinate.rate) <= rounding) continue;
-    const int regime = law.struck_regime(sight, rounding);
+    const Blow blow = blow_on(law, struck, sight);
+    if (blow.change <= blow.rounding) continue;
+    const int regime = law.struck_regime(sight, blow.rounding);
     if (regime == sight.stand.regime) continue;
     sight.stand = {regime, 0.0};
     law.find_states(sight, memory.laws.data() + load.first_state);

@@ -121,6 +121,9 @@ void close_rows(const model::Model& model, const RestStands& at_rest,
     const double size = model.coordinates[coordinate].law.is_angle() ? 1.0 : model.length;
     const auto motion = dynamics::coordinate_motion(model, coordinate, 0.0, &memory, motions);
     if (std::abs(motion.rate) > kStandsStill * size) continue;
+    // A ball that turns about another axis slides.
+    const bool is_of_ball = static_cast<const loads::RigidLaw&>(*load.element).row_of_ball() >= 0;
+    if (is_of_ball && memory.laws[load.first_state] != 1.0) continue;
     const bool presses = !at_rest.empty() && at_rest[k].regime != 0;
     const int regime = presses ? at_rest[k].regime : touched_end(load, motion.value, size);
     if (regime == 0) continue;

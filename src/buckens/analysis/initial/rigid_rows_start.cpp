@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "buckens/analysis/initial/acceleration.h"
+#include "buckens/analysis/initial/balls_start.h"
 #include "buckens/analysis/initial/quasi_static_start.h"
 #include "buckens/analysis/initial/rough_contacts.h"
 #include "buckens/base/errors.h"
@@ -233,11 +234,8 @@ bool hold_over_instant(RoughContacts& contacts, model::State& state) try {
   return false;
 }
 
-}  // namespace
-
-void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& metric,
-                       const std::vector<int>& rows_in_use, model::State& state) {
-  let_go_of_torn_motors(model, state);
+void settle_stands(const model::Model& model, const dynamics::MassMetric& metric,
+                   const std::vector<int>& rows_in_use, model::State& state) {
   Unrest unrest;
   if (find_rough_contact(model) == model.loads.end()) {
     if (settle_in_rounds(model, metric, rows_in_use, nullptr, state, unrest)) return;
@@ -269,6 +267,15 @@ void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& me
       fmt::format("at t = {:.6g} s no combination of holding and releasing satisfies all of the "
                   "rigid loads {}; give one of them a stiffness, or friction `stick: elastic`",
                   state.t, unrest.moved));
+}
+
+}  // namespace
+
+void settle_rigid_rows(const model::Model& model, const dynamics::MassMetric& metric,
+                       const std::vector<int>& rows_in_use, model::State& state) {
+  let_go_of_torn_motors(model, state);
+  settle_stands(model, metric, rows_in_use, state);
+  aim_balls(model, metric, rows_in_use, state);
 }
 
 }  // namespace buckens::analysis

@@ -9,6 +9,15 @@ namespace buckens::analysis {
 
 using Eigen::Vector3d;
 
+namespace {
+
+/// Whether a coordinate has a value: rates at which balls turn about an axis have none.
+bool has_value(const model::Model& model, int coordinate) {
+  return model.coordinates[static_cast<std::size_t>(coordinate)].joint >= 0;
+}
+
+}  // namespace
+
 FrictionWork::FrictionWork(const model::Model& model, const model::State& start,
                            const std::vector<dynamics::LoadPower>& of_loads)
     : model_(model),
@@ -21,7 +30,7 @@ FrictionWork::FrictionWork(const model::Model& model, const model::State& start,
 Vector3d FrictionWork::displacement(std::size_t n, const model::State& before,
                                     const model::State& end, double h) const {
   const int coordinate = model_.loads[loads_[n]].coordinate;
-  if (coordinate >= 0) {
+  if (coordinate >= 0 && has_value(model_, coordinate)) {
     const auto k = static_cast<std::size_t>(coordinate);
     return {spatial::difference(before.memory.coordinates[k], end.memory.coordinates[k]), 0.0, 0.0};
   }

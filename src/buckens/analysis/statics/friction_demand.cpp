@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "buckens/dynamics/travel.h"
-#include "buckens/loads/ball_friction.h"
 #include "buckens/loads/contact.h"
 #include "buckens/loads/contact_friction.h"
 #include "buckens/loads/coordinate_motor.h"
+#include "buckens/loads/joint_law_spec.h"
 #include "buckens/model/contact_group.h"
 
 namespace buckens::analysis {
@@ -38,6 +38,13 @@ double most_of(const model::Model& model, std::size_t load,
     return contact->data().static_coefficient * contact->read(sight).normal;
   }
   return dynamic_cast<const loads::ReactionFollower&>(*own.element).most_at_rest(sight);
+}
+
+/// Friction of a cross joint: each arm has its own bearing.
+bool rubs_by_arm(const model::Model& model, std::size_t load) {
+  const int joint = model.loads[load].joint;
+  return model.loads[load].kind == loads::BallFrictionSpec::kKey && joint >= 0 &&
+         model.joints[static_cast<std::size_t>(joint)].type == joints::JointType::universal;
 }
 
 /// Two bodies of a contact of many, and what friction between them gives.
@@ -135,9 +142,7 @@ std::vector<FrictionDemand> friction_demands(const model::Model& model,
         demand.most = most_of(model, row.load, motions, lambda, state);
       continue;
     }
-    const auto* ball =
-        dynamic_cast<const loads::BallFriction*>(model.loads[row.load].element.get());
-    const bool is_by_arm = ball != nullptr && ball->has_arms();
+    const bool is_by_arm = rubs_by_arm(model, row.load);
     demand.force = is_by_arm ? std::max(demand.force, force) : std::hypot(demand.force, force);
     demand.most = most_of(model, row.load, motions, lambda, state);
   }

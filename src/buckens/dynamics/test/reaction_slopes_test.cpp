@@ -9,9 +9,11 @@
 #include "buckens/dynamics/forces.h"
 #include "buckens/dynamics/row_memory.h"
 #include "buckens/dynamics/test/example_models.h"
+#include "buckens/joints/turning_rate.h"
 #include "buckens/loads/ball_friction.h"
 #include "buckens/loads/bristle_friction.h"
 #include "buckens/loads/joint_friction.h"
+#include "buckens/loads/rigid_ball_friction.h"
 
 namespace buckens::dynamics {
 namespace {
@@ -135,6 +137,17 @@ TEST(ReactionSlopes, AreThoseOfABallThatSlides) {
     loads::FrictionData ball = pin();
     ball.axial_radius = ball.bearing_length = 0.0;
     m.add_law_of_joint(std::make_unique<loads::BallFriction>(ball, std::nullopt));
+  });
+  for (const double speed : {3.0, -3.0}) expect_the_derivatives(model, speed);
+}
+
+TEST(ReactionSlopes, AreThoseOfABallThatSticksRigidlyWhileItSlides) {
+  const model::Model model = rubbing_rods(JointType::spherical, [](test::Mechanism& m) {
+    for (int k = 0; k < loads::RigidBallFriction::kRows; ++k) {
+      m.add_law(std::make_unique<loads::RigidBallFriction>(pin(), k),
+                joints::JointCoordinate::measured(
+                    std::make_shared<joints::TurningRate>(Vector3d::Unit(k))));
+    }
   });
   for (const double speed : {3.0, -3.0}) expect_the_derivatives(model, speed);
 }

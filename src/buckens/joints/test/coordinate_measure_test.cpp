@@ -12,6 +12,7 @@
 #include "buckens/joints/path_coordinate.h"
 #include "buckens/joints/rolled_way.h"
 #include "buckens/joints/swing_twist.h"
+#include "buckens/joints/turning_rate.h"
 #include "buckens/spatial/test/marker_path.h"
 
 namespace buckens::joints {
@@ -264,6 +265,23 @@ TEST(RolledWay, CountsNeitherTurningNorLeaning) {
         turn(2.0, Vector3d::UnitZ()) * turn(lean, Vector3d::UnitX()) * turn(0.9, Vector3d::UnitY());
     EXPECT_NEAR(angle.look(F, M, nullptr).fraction, 0.9, 1e-14);  // rounding
   }
+}
+
+TEST(TurningRate, ChangesAsItsRowSays) {
+  const TurningRate turning(Vector3d(2, -1, 2) / 3.0);
+  const MarkerPath F = MarkerPath::some(3), M = MarkerPath::some(4);
+  const auto rate = [&](double t) { return turning.look(F.at(t), M.at(t), nullptr).rate; };
+  Eigen::Matrix<double, 12, 1> V, A;
+  V << F.w, F.v, M.w, M.v;
+  A << F.alpha, F.a, M.alpha, M.a;
+  const CoordinateLook look = turning.look(F.at(0), M.at(0), nullptr);
+  EXPECT_EQ(look.fraction, 0.0);
+  EXPECT_NEAR(look.rate, look.J.dot(V), 1e-14);
+  const double acceleration = look.J.dot(A) + turning.bias(F.at(0), M.at(0), {}, {}, nullptr);
+  // Differences of fourth order: h⁴ with h = 1 ms, and rounding over h.
+  EXPECT_NEAR(acceleration, test::derivative(rate), 1e-9 * (1 + std::abs(acceleration)));
+  EXPECT_NEAR(acceleration, turning.bias(F.at(0), M.at(0), {F.alpha, F.a}, {M.alpha, M.a}, nullptr),
+              1e-13);
 }
 
 }  // namespace

@@ -11,11 +11,10 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/loads/applied_load.h"
-#include "buckens/loads/ball_bristles.h"
-#include "buckens/loads/ball_friction.h"
 #include "buckens/loads/coordinate_law.h"
 #include "buckens/loads/rigid_law.h"
 #include "buckens/loads/spring_damper.h"
+#include "buckens/model/build/add_ball_friction.h"
 #include "buckens/model/build/add_belt.h"
 #include "buckens/model/build/add_cable.h"
 #include "buckens/model/build/add_cam.h"
@@ -23,7 +22,6 @@
 #include "buckens/model/build/add_contacts.h"
 #include "buckens/model/build/add_gear_teeth.h"
 #include "buckens/model/build/find_factor.h"
-#include "buckens/model/build/friction_laws.h"
 
 namespace buckens::model {
 
@@ -36,8 +34,6 @@ namespace {
 constexpr double kOutOfPlane = 1e-6;
 // A rope that is shorter than the distance by this share is meant to be taut.
 constexpr double kTautRope = 1e-9;
-// Elastic turn before friction breaks away, as of hinges [rad].
-constexpr double kSlipAngle = 1e-5;
 
 class LoadBuilder {
  public:
@@ -71,7 +67,7 @@ class LoadBuilder {
     } else if (const auto* teeth = std::get_if<loads::ElasticGearSpec>(&spec.kind)) {
       set_gear_teeth(*teeth, find_, load, spec.where);
     } else if (const auto* ball = std::get_if<loads::BallFrictionSpec>(&spec.kind)) {
-      add_ball_friction(*ball, load, spec.where);
+      behind = set_ball_friction(*ball, find_, load, spec.where);
     }
     find_.model().loads.push_back(std::move(load));
     std::move(behind.begin(), behind.end(), std::back_inserter(find_.model().loads));
@@ -170,48 +166,6 @@ class LoadBuilder {
           -HUGE_VAL, length, kind.restitution.value_or(0.0),
           kind.threshold.value_or(loads::RigidStop::kAtRest * length));
     }
-  }
-
-  /// Half the harmonic mean of both rotary inertias moves, as of two free bodies.
-  static double moved_inertia(const Model& model, const Joint& joint) {
-    double inverse = 0.0;
-    for (const MarkerId* id : {&joint.first, &joint.second}) {
-      if (id->body == kGround) continue;
-      const double own = model.bodies[static_cast<std::size_t>(id->body)].J0.trace() / 3.0;
-      if (own > 0.0) inverse += 1.0 / own;
-    }
-    return inverse > 0.0 ? 1.0 / inverse : 0.0;
-  }
-
-  void add_ball_friction(const loads::BallFrictionSpec& kind, Load& load,
-                         const SourceLocation& where) {
-    const Model& model = find_.model();
-    std::size_t j = 0;
-    while (model.joints[j].name != kind.joint || model.joints[j].is_tie) ++j;
-    const Joint& joint = model.joints[j];
-    load.joint = static_cast<int>(j);
-    load.first = joint.first;
-    load.second = joint.second;
-    const std::string what = fmt::format("load \"{}\"", load.name);
-    find_.require_moment(load.first, what, where);
-    find_.require_moment(load.second, what, where);
-    loads::FrictionData data;
-    data.stribeck_rate = kind.stribeck.value_or(0.0);
-    data.slip = kind.slip.value_or(kSlipAngle);
-    data.radius = kind.radius;
-    data.inertia = moved_inertia(model, joint);
-    if (kind.stick == loads::FrictionStick::bristles) {
-      const loads::BristleData bristles{*kind.bristle_stiffness, kind.bristle_damping.value_or(0.0),
-                                        kind.elastic_share};
-      load.element = std::make_unique<loads::BallBristles>(data, bristles, friction_laws(kind));
-      return;
-    }
-    std::optional<loads::BallFriction::Arms> arms;
-    if (joint.type == joints::JointType::universal) {
-      const joints::ConstraintRow& cross = joint.rows.back();
-      arms = {cross.direction(), cross.second_direction()};
-    }
-    load.element = std::make_unique<loads::BallFriction>(data, arms, friction_laws(kind));
   }
 
   void add_torsional(const loads::TorsionalSpringSpec& kind, Load& load,

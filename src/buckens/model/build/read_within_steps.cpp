@@ -10,6 +10,7 @@
 #include "buckens/base/nearest.h"
 #include "buckens/loads/bushing.h"
 #include "buckens/loads/contact.h"
+#include "buckens/loads/joint_law_spec.h"
 #include "buckens/loads/spring_damper.h"
 
 namespace buckens::model {
@@ -126,6 +127,8 @@ class WithinStep {
       if (load.name != name || load.coordinate < 0) continue;
       const Coordinate& on = model_.coordinates[static_cast<std::size_t>(load.coordinate)];
       if (on.law.is_angle() != turns) continue;
+      // A row of a ball is only a part of its torque.
+      if (load.kind == loads::BallFrictionSpec::kKey) continue;
       become(Signal::Kind::force);
       signal_.load = static_cast<int>(k);
       signal_.factor = -1.0;
