@@ -10,6 +10,7 @@
 #include "buckens/joints/turning_rate.h"
 #include "buckens/loads/ball_bristles.h"
 #include "buckens/loads/ball_friction.h"
+#include "buckens/loads/bristle_friction.h"
 #include "buckens/loads/rigid_ball_friction.h"
 #include "buckens/model/build/add_joint_law.h"
 #include "buckens/model/build/friction_laws.h"
@@ -50,16 +51,25 @@ std::vector<Load> take_first(std::vector<Load> rows, Load& load) {
   return rows;
 }
 
-/// A row for the angle of each arm, whose bearing sees all of the force. @return the other one
-std::vector<Load> set_rigid_cross(const loads::BallFrictionSpec& spec, loads::FrictionData data,
-                                  MarkerFinder& find, Load& load) {
+loads::BristleData bristles_of(const loads::BallFrictionSpec& spec) {
+  return {*spec.bristle_stiffness, spec.bristle_damping.value_or(0.0), spec.elastic_share};
+}
+
+/// A law of the angle of each arm, whose bearing sees all of the force. @return the other one
+std::vector<Load> set_arms(const loads::BallFrictionSpec& spec, loads::FrictionData data,
+                           MarkerFinder& find, Load& load) {
   data.pins_radius = std::exchange(data.radius, 0.0);
   std::vector<Load> rows(2, load);
   const auto set = [&](base::CoordinateChoice arm, Load& row) {
     row.coordinate = find_coordinate(spec.joint, arm, base::CoordinateSort::angles, find);
     const auto index = static_cast<std::size_t>(row.coordinate);
-    row.element = std::make_shared<loads::RigidFriction>(
-        data, find.model().coordinates[index].law.axis(), friction_laws(spec));
+    const Vector3d axis = find.model().coordinates[index].law.axis();
+    if (spec.stick == loads::FrictionStick::rigid) {
+      row.element = std::make_shared<loads::RigidFriction>(data, axis, friction_laws(spec));
+    } else {
+      row.element = std::make_shared<loads::BristleFriction>(data, bristles_of(spec), axis,
+                                                             friction_laws(spec));
+    }
   };
   set(base::CoordinateChoice::angle, rows.front());
   set(base::CoordinateChoice::second_angle, rows.back());
@@ -105,15 +115,16 @@ std::vector<Load> set_ball_friction(const loads::BallFrictionSpec& spec, MarkerF
   data.slip = spec.slip.value_or(kSlipAngle);
   data.radius = spec.radius;
   const bool is_cross = joint.type == joints::JointType::universal;
+  if (is_cross && spec.stick != loads::FrictionStick::elastic) {
+    return set_arms(spec, data, find, load);
+  }
   if (spec.stick == loads::FrictionStick::rigid) {
-    return is_cross ? set_rigid_cross(spec, data, find, load)
-                    : set_rigid_ball(data, friction_laws(spec), find, load);
+    return set_rigid_ball(data, friction_laws(spec), find, load);
   }
   data.inertia = moved_rotary_inertia(model, joint);
   if (spec.stick == loads::FrictionStick::bristles) {
-    const loads::BristleData bristles{*spec.bristle_stiffness, spec.bristle_damping.value_or(0.0),
-                                      spec.elastic_share};
-    load.element = std::make_unique<loads::BallBristles>(data, bristles, friction_laws(spec));
+    load.element =
+        std::make_unique<loads::BallBristles>(data, bristles_of(spec), friction_laws(spec));
     return {};
   }
   std::optional<loads::BallFriction::Arms> arms;

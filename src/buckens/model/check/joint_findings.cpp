@@ -325,11 +325,6 @@ Found own_joint_problem(const loads::BallFrictionSpec& spec, const ModelDescript
                                "use `hinge-friction` or `slide-friction`",
                                spec.joint, joint.kind_name())};
   }
-  if (is_cross && spec.stick == loads::FrictionStick::bristles) {
-    return Finding{"stick",
-                   "a cross joint sticks by a stiff spring or rigidly; remove this key, or write "
-                   "`stick: elastic` or `stick: rigid`"};
-  }
   if (spec.length) {
     return Finding{"bearing-length", "balls and crosses carry no bending moments; remove this key"};
   }
