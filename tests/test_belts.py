@@ -201,7 +201,7 @@ def test_a_cross_rubs_about_each_arm(sensors):
 @pytest.mark.parametrize("words, before, after", [
     ("joint \"ball\" is a fixed; name a spherical or universal one", SOCKET, "fixed: {between: [ground, rod/origin]}"),
     ("of zero radius cause no friction torque", "radius: 20 mm", "radius: 0"),
-    ("sticks by a stiff spring", "radius: 20 mm", "radius: 20 mm, stick: rigid"),
+    ("does not slip before it slides", "radius: 20 mm", "radius: 20 mm, stick: rigid, slip: 1e-5 rad"),
     ("carry no bending moments", "radius: 20 mm", "radius: 20 mm, bearing-length: 3 mm"),
 ])
 def test_wrong_ball_friction_is_named(buckens, tmp_path, words, before, after):

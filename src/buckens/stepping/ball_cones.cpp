@@ -125,15 +125,27 @@ BallCones::Balls BallCones::gather(const Instant& now, const RigidRows& rigid) c
 }
 
 bool BallCones::condense(const Instant& now) {
-  // Other rigid rows keep their stands.
   std::vector<dynamics::SystemRow> others;
+  std::vector<double> give;
+  bool have_springs = false;
   for (std::size_t k = 0; k < now.soft.rows.size(); ++k) {
     const int row = now.soft.rigid[k];
-    if (row < 0 || !now.soft.is_closed[k] || is_own_[static_cast<std::size_t>(row)] != 0) continue;
-    others.push_back(now.soft.rows[k]);
+    const dynamics::SystemRow& own = now.soft.rows[k];
+    if (row < 0) {
+      const bool is_spring = now.soft.stiffness[k] > 0.0 || now.soft.damping[k] > 0.0;
+      if (now.soft_compliance == nullptr || !is_spring) continue;
+      have_springs = true;
+      give.push_back((*now.soft_compliance)[k]);
+    } else {
+      // Other rigid rows keep their stands.
+      if (!now.soft.is_closed[k] || is_own_[static_cast<std::size_t>(row)] != 0) continue;
+      give.push_back(kRigidGive * own_compliance(own, now.compliance));
+    }
+    others.push_back(own);
   }
+  if (!have_springs) give.clear();
   return answers_.condense(now.compliance, now.motions, now.rows_in_use, now.around.memory, now.t,
-                           others);
+                           others, give);
 }
 
 Matrix BallCones::answers(const Instant& now, const Balls& balls) const {

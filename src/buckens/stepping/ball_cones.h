@@ -27,6 +27,9 @@ class BallCones {
     const std::vector<int>& rows_in_use;
     const dynamics::Circumstances& around;
     double t;
+    /// Of each soft row, in the units of `compliance`: 1/k of springs and dampers within the step;
+    /// null: they are left out.
+    const std::vector<double>* soft_compliance = nullptr;
     /// Everything else has settled: balls that slide with ω go on doing so unless they stick.
     bool is_settled = false;
     /// RigidRow::slip is what rates are about to become: balls that turn already are left as they

@@ -14,7 +14,8 @@ using linalg::Vector;
 bool PushAnswers::condense(const std::vector<dynamics::BodyCompliance>& compliance,
                            const std::vector<dynamics::BodyMotion>& motions,
                            const std::vector<int>& rows_in_use, const model::RowMemory* memory,
-                           double t, const std::vector<dynamics::SystemRow>& closed) {
+                           double t, const std::vector<dynamics::SystemRow>& closed,
+                           const std::vector<double>& give) {
   compliance_ = &compliance;
   joints_.reset();
   if (rows_in_use.empty() && closed.empty()) return true;
@@ -23,13 +24,14 @@ bool PushAnswers::condense(const std::vector<dynamics::BodyCompliance>& complian
   std::vector<dynamics::SystemRow> rows;
   rows.reserve(rows_in_use.size());
   for (const int row : rows_in_use) rows.push_back(all.rows[static_cast<std::size_t>(row)]);
-  std::vector<double> give;
-  for (const dynamics::SystemRow& row : closed) {
-    rows.push_back(row);
-    give.push_back(kRigidGive * own_compliance(row, compliance));
-  }
+  rows.insert(rows.end(), closed.begin(), closed.end());
   joints_.emplace(static_cast<int>(motions.size()), rows);
-  return factorise_closed_rows(*joints_, rows, compliance, give);
+  if (!give.empty()) return joints_->factorise(rows, rows, compliance, give);
+  std::vector<double> least;
+  for (const dynamics::SystemRow& row : closed) {
+    least.push_back(kRigidGive * own_compliance(row, compliance));
+  }
+  return factorise_closed_rows(*joints_, rows, compliance, least);
 }
 
 namespace {

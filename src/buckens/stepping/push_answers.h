@@ -25,7 +25,7 @@ struct Push {
   std::vector<PushedBody> bodies;  ///< those that move, ascending
 };
 
-/// Responses of bodies and their joints to pushes along rows. Springs are not included.
+/// Responses of bodies and their joints to pushes along rows, and of springs if they are given.
 class PushAnswers {
  public:
   /// @param model must outlive this object
@@ -33,11 +33,13 @@ class PushAnswers {
 
   /// @param compliance of each body, must outlive the answers, @param rows_in_use independent rows
   /// @param closed rigid rows of force laws that also hold
+  /// @param give of each of these that yields, as springs do [m/N]; empty: none does
   /// @return false if the joint rows are dependent there
   bool condense(const std::vector<dynamics::BodyCompliance>& compliance,
                 const std::vector<dynamics::BodyMotion>& motions,
                 const std::vector<int>& rows_in_use, const model::RowMemory* memory, double t,
-                const std::vector<dynamics::SystemRow>& closed = {});
+                const std::vector<dynamics::SystemRow>& closed = {},
+                const std::vector<double>& give = {});
   /// Sets everything of a push except its row.
   void answer(Push& push) const;
   /// Response along a row to a push along another one.

@@ -188,7 +188,8 @@ bool SmallNewton::decide_cones(double t, const StepReport& report) {
 bool SmallNewton::decide_balls(double t, const StepReport& report, bool is_settled) {
   if (balls_.empty() || !may_move(t, report)) return false;
   const BallCones::Instant now{forces_.rigid, soft_,   compliance_,   at_evaluation(),
-                               rows_in_use_,  around_, t + scheme_.h, is_settled};
+                               rows_in_use_,  around_, t + scheme_.h, &soft_compliance_,
+                               is_settled};
   if (!balls_.decide(now, scheme_.force, scheme_.end_rate, rigid_)) return false;
   rigid_.count_move();
   return true;
