@@ -137,7 +137,8 @@ def test_the_program_goes_on_with_a_run_that_only_python_watched(program, tmp_pa
 
 
 def test_ctrl_c_leaves_a_checkpoint(tmp_path, heed_ctrl_c):
-    model = buckens.Model.from_yaml(CASES["friction, stops"])
+    # It takes a second or more.
+    model = buckens.Model.from_yaml(CASES["friction, stops"].replace("0.8 s", "3 s"))
     whole = buckens.Simulation(model, out=tmp_path / "whole")
     whole.run()
     sim = buckens.Simulation(model, out=tmp_path / "out")
