@@ -127,9 +127,11 @@ class Goals:
             one, two = self.step(block, "full"), self.step(block, "full", 2)
             tree = self.of("tree", block)
             share = next((t["share"] for t in tree["by_threads"] if t["threads"] == 2), None) if tree else None
+            bandwidth = (self.of("solves", block) or {}).get("bandwidth")
             if one and two:
-                # Both threads read what one of them would have read, at the bandwidth of two.
-                self.add(f"{block}, `full`: step on 2 threads ÷ on one", 0.56, two / one, share)
+                bounds = [share, bandwidth["1"] / bandwidth["2"] if bandwidth else None]
+                self.add(f"{block}, `full`: step on 2 threads ÷ on one", 0.56, two / one,
+                         max((b for b in bounds if b), default=None))
 
     def modes(self):
         for block, goal in (("hex8 274 x 10 x 10", 7.0), ("tet10 137 x 5 x 5", 7.0), ("hex8 31 x 31 x 31", 15.0),

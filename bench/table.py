@@ -261,7 +261,7 @@ def goal_table(results):
             "`bound`, in the unit of the measured value: for `full`, one solve, at 30 000 variables "
             "and more as its factor is read twice at the bandwidth of the same run, below as measured; for variants, one variant plus "
             "what additional columns of a solve take, and nothing else; for threads, the largest share of the factor that one of them "
-            "reads.", "", *lines_of(head, rows)]
+            "reads, or the bandwidth of one ÷ that of both, whichever is more. What stays in the cache may beat a bandwidth.", "", *lines_of(head, rows)]
 
 
 def origin(results):
