@@ -92,7 +92,7 @@ def draw_sharing(results, file):
                                  markerfacecolor="none" if slender else colour,
                                  label=f"{'slender' if slender else 'cubes'}, `{level}`")
     threads.axhline(0.5, color="grey", linewidth=0.8)
-    threads.set_ylim(0, 1.05)
+    threads.set_ylim(bottom=0)
     threads.set_xlabel("nodal variables")
     threads.set_ylabel("step on two threads ÷ step on one")
     threads.legend(fontsize=8)
