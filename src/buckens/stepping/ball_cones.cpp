@@ -91,7 +91,8 @@ bool BallCones::holds(const Ball& ball, const std::vector<loads::RigidRow>& rows
          (torque * speed + slip * size).norm() <= (kInLine * speed + 4.0 * at_rest) * size;
 }
 
-BallCones::Balls BallCones::gather(const Instant& now, const RigidRows& rigid) const {
+BallCones::Balls BallCones::gather(const RigidInstant& now, const Stage& stage,
+                                   const RigidRows& rigid) const {
   dynamics::SignalValues signals;
   const dynamics::Circumstances around =
       dynamics::with_signals(model_, now.motions, now.t, now.around, signals);
@@ -109,13 +110,13 @@ BallCones::Balls BallCones::gather(const Instant& now, const RigidRows& rigid) c
         dynamics::ends_of(model_, model_.loads[ball.load], now.motions, now.around.memory);
     const loads::Sight sight = dynamics::sight_of(model_, ball.load, now.t, around, ends);
     const double speed = loads::RigidBallFriction::rate(sight).norm();
-    if (now.begins && speed > loads::RigidBallFriction::kAtRest) continue;
+    if (stage.begins && speed > loads::RigidBallFriction::kAtRest) continue;
     const double viscous = ball.law->viscous(sight);
     out.all.push_back(&ball);
     out.most.push_back(ball.law->most(sight, stands->regime == 1 ? 0.0 : speed));
     for (int k = 0; k < kAxesOfBall; ++k, ++n) {
       const loads::RigidRow& row = now.rows[static_cast<std::size_t>(ball.rigid + k)];
-      out.viscous[n] = now.begins ? 0.0 : viscous;
+      out.viscous[n] = stage.begins ? 0.0 : viscous;
       out.rate[n] = row.slip;
       out.torque[n] = row.is_closed ? stands[k].force : row.given + out.viscous[n] * row.slip;
     }
@@ -124,7 +125,7 @@ BallCones::Balls BallCones::gather(const Instant& now, const RigidRows& rigid) c
   return out;
 }
 
-bool BallCones::condense(const Instant& now) {
+bool BallCones::condense(const RigidInstant& now, const Stage& stage) {
   std::vector<dynamics::SystemRow> others;
   std::vector<double> give;
   bool have_springs = false;
@@ -133,9 +134,9 @@ bool BallCones::condense(const Instant& now) {
     const dynamics::SystemRow& own = now.soft.rows[k];
     if (row < 0) {
       const bool is_spring = now.soft.stiffness[k] > 0.0 || now.soft.damping[k] > 0.0;
-      if (now.soft_compliance == nullptr || !is_spring) continue;
+      if (stage.soft_compliance == nullptr || !is_spring) continue;
       have_springs = true;
-      give.push_back((*now.soft_compliance)[k]);
+      give.push_back((*stage.soft_compliance)[k]);
     } else {
       // Other rigid rows keep their stands.
       if (!now.soft.is_closed[k] || is_own_[static_cast<std::size_t>(row)] != 0) continue;
@@ -148,7 +149,7 @@ bool BallCones::condense(const Instant& now) {
                            others, give);
 }
 
-Matrix BallCones::answers(const Instant& now, const Balls& balls) const {
+Matrix BallCones::answers(const RigidInstant& now, const Balls& balls) const {
   std::vector<Push> pushes;
   for (const Ball* ball : balls.all) {
     for (int k = 0; k < kAxesOfBall; ++k) {
@@ -165,9 +166,10 @@ Matrix BallCones::answers(const Instant& now, const Balls& balls) const {
   return 0.5 * (D + D.transpose());
 }
 
-bool BallCones::decide(const Instant& now, double per_force, double per_change, RigidRows& rigid) {
-  const Balls balls = gather(now, rigid);
-  if (balls.all.empty() || !condense(now)) return false;
+bool BallCones::decide(const RigidInstant& now, const Stage& stage, double per_force,
+                       double per_change, RigidRows& rigid) {
+  const Balls balls = gather(now, stage, rigid);
+  if (balls.all.empty() || !condense(now, stage)) return false;
   Matrix D = answers(now, balls);
   if (!(balls.viscous.isZero(0.0))) {
     // Viscous torques −c w follow what the dry ones do to the rates.
@@ -191,7 +193,7 @@ bool BallCones::decide(const Instant& now, double per_force, double per_change, 
     const bool sticks = rates.segment<kAxesOfBall>(first).norm() <= none;
     const Ball& ball = *balls.all[k];
     const int regime = rigid.stands()[static_cast<std::size_t>(ball.rigid)].regime;
-    if (now.is_settled && !sticks && regime == 2 && holds(ball, now.rows, rigid)) continue;
+    if (stage.is_settled && !sticks && regime == 2 && holds(ball, now.rows, rigid)) continue;
     has_moved = put(ball, P.segment<kAxesOfBall>(first) / per_force, sticks, rigid) || has_moved;
   }
   return has_moved;

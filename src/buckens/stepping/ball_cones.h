@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "buckens/dynamics/forces.h"
 #include "buckens/loads/rigid_ball_friction.h"
 #include "buckens/stepping/push_answers.h"
+#include "buckens/stepping/rigid_instant.h"
 #include "buckens/stepping/rigid_rows.h"
 
 namespace buckens::stepping {
@@ -18,15 +18,8 @@ namespace buckens::stepping {
 /// stands that follow. Theory: docs/theory/23-impacts.md §3.
 class BallCones {
  public:
-  /// An instant of the iteration.
-  struct Instant {
-    const std::vector<loads::RigidRow>& rows;
-    const dynamics::SoftRows& soft;
-    const std::vector<dynamics::BodyCompliance>& compliance;  ///< of the bodies [m/N]
-    const std::vector<dynamics::BodyMotion>& motions;
-    const std::vector<int>& rows_in_use;
-    const dynamics::Circumstances& around;
-    double t;
+  /// What is known of the iteration at the instant.
+  struct Stage {
     /// Of each soft row, in the units of `compliance`: 1/k of springs and dampers within the step;
     /// null: they are left out.
     const std::vector<double>* soft_compliance = nullptr;
@@ -50,7 +43,8 @@ class BallCones {
   /// @param per_force,per_change `compliance` times per_force is the displacement due to a force;
   ///        times per_change as well, it is the change of the rate
   /// @return whether the stand of any row has changed
-  bool decide(const Instant& now, double per_force, double per_change, RigidRows& rigid);
+  bool decide(const RigidInstant& now, const Stage& stage, double per_force, double per_change,
+              RigidRows& rigid);
 
  private:
   struct Ball {
@@ -66,9 +60,9 @@ class BallCones {
   };
   static bool holds(const Ball& ball, const std::vector<loads::RigidRow>& rows,
                     const RigidRows& rigid);
-  Balls gather(const Instant& now, const RigidRows& rigid) const;
-  bool condense(const Instant& now);
-  linalg::Matrix answers(const Instant& now, const Balls& balls) const;
+  Balls gather(const RigidInstant& now, const Stage& stage, const RigidRows& rigid) const;
+  bool condense(const RigidInstant& now, const Stage& stage);
+  linalg::Matrix answers(const RigidInstant& now, const Balls& balls) const;
   static bool put(const Ball& ball, const Eigen::Vector3d& torque, bool sticks, RigidRows& rigid);
 
   const model::Model& model_;

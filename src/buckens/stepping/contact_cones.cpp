@@ -113,9 +113,9 @@ ContactCones::Pressed ContactCones::gather(const std::vector<loads::RigidRow>& r
   return out;
 }
 
-bool ContactCones::condense(const Instant& now, const RigidRows& rigid) {
-  if (now.memory != nullptr) {
-    for (Place& place : places_) place.data = place.law->data_at(now.memory->signals);
+bool ContactCones::condense(const RigidInstant& now, const RigidRows& rigid) {
+  if (now.around.memory != nullptr) {
+    for (Place& place : places_) place.data = place.law->data_at(now.around.memory->signals);
   }
   // Other rigid rows, such as stops and locks, keep their stands, and so do places that pull only
   // at the end.
@@ -127,11 +127,12 @@ bool ContactCones::condense(const Instant& now, const RigidRows& rigid) {
       others.push_back(now.soft.rows[k]);
     }
   }
-  return answers_.condense(now.compliance, now.motions, now.rows_in_use, now.memory, now.t, others);
+  return answers_.condense(now.compliance, now.motions, now.rows_in_use, now.around.memory, now.t,
+                           others);
 }
 
-ContactCones::Outcome ContactCones::solve(const Instant& now, double per_force, double per_change,
-                                          const RigidRows& rigid) const {
+ContactCones::Outcome ContactCones::solve(const RigidInstant& now, double per_force,
+                                          double per_change, const RigidRows& rigid) const {
   Outcome out;
   out.pressed = gather(now.rows, now.soft, rigid);
   if (out.pressed.places.empty()) return out;
@@ -154,7 +155,7 @@ ContactCones::Outcome ContactCones::solve(const Instant& now, double per_force, 
   return out;
 }
 
-bool ContactCones::decide(const Instant& now, double per_force, double per_change,
+bool ContactCones::decide(const RigidInstant& now, double per_force, double per_change,
                           RigidRows& rigid) {
   if (!condense(now, rigid)) return false;
   bool has_moved = false;
@@ -183,7 +184,7 @@ void ContactCones::follow(int across, RigidRows& rigid) const {
   }
 }
 
-void ContactCones::hold_over(const Instant& now, double span, RigidRows& rigid) {
+void ContactCones::hold_over(const RigidInstant& now, double span, RigidRows& rigid) {
   if (!condense(now, rigid)) return;
   const Outcome found = solve(now, span, 1.0, rigid);
   for (std::size_t k = 0; k < found.pressed.places.size(); ++k) {

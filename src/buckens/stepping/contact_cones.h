@@ -7,6 +7,7 @@
 #include "buckens/loads/contact_friction.h"
 #include "buckens/stepping/friction_impulses.h"
 #include "buckens/stepping/push_answers.h"
+#include "buckens/stepping/rigid_instant.h"
 #include "buckens/stepping/rigid_rows.h"
 
 namespace buckens::stepping {
@@ -21,17 +22,6 @@ namespace buckens::stepping {
 /// Theory: docs/theory/25-contact.md §4.
 class ContactCones {
  public:
-  /// An instant of the iteration.
-  struct Instant {
-    const std::vector<loads::RigidRow>& rows;
-    const dynamics::SoftRows& soft;
-    const std::vector<dynamics::BodyCompliance>& compliance;  ///< of the bodies [m/N]
-    const std::vector<dynamics::BodyMotion>& motions;
-    const std::vector<int>& rows_in_use;
-    const model::RowMemory* memory;
-    double t;
-  };
-
   explicit ContactCones(const model::Model& model);
 
   bool empty() const { return places_.empty(); }
@@ -45,14 +35,14 @@ class ContactCones {
   /// @param per_force,per_change `compliance` times per_force is the displacement due to a force;
   ///        times per_change as well, it is the change of the rate
   /// @return whether the stand of any row has changed
-  bool decide(const Instant& now, double per_force, double per_change, RigidRows& rigid);
+  bool decide(const RigidInstant& now, double per_force, double per_change, RigidRows& rigid);
   /// Opens the friction rows of a place whose normal row is open.
   void follow(int across, RigidRows& rigid) const;
   /// Like decide(), for forces that act throughout a span of time, including normal forces: (I1)
   /// and (I2) hold at its end, and the rows of all places get the stands and forces that follow.
   /// Such forces always exist, even if there are none at the instant itself.
   /// @param now with the rates that the rows would have at the end of the span without forces
-  void hold_over(const Instant& now, double span, RigidRows& rigid);
+  void hold_over(const RigidInstant& now, double span, RigidRows& rigid);
 
  private:
   /// One contact point: its normal row ("across") and its friction rows ("along"), which follow it.
@@ -86,10 +76,10 @@ class ContactCones {
   };
   Pressed gather(const std::vector<loads::RigidRow>& rows, const dynamics::SoftRows& soft,
                  const RigidRows& rigid) const;
-  bool condense(const Instant& now, const RigidRows& rigid);
+  bool condense(const RigidInstant& now, const RigidRows& rigid);
   /// Whether any friction row of a place is in use.
   static bool rubs(const Place& place, const std::vector<loads::RowStand>& stands);
-  Outcome solve(const Instant& now, double per_force, double per_change,
+  Outcome solve(const RigidInstant& now, double per_force, double per_change,
                 const RigidRows& rigid) const;
   static Now look(const Place& place, const std::vector<loads::RigidRow>& rows,
                   const std::vector<loads::RowStand>& stands);

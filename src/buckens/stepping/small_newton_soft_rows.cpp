@@ -173,8 +173,8 @@ bool SmallNewton::move_rigid_rows(double t, const StepReport& report) {
 bool SmallNewton::decide_cones(double t, const StepReport& report) {
   if (cones_.empty() || !may_move(t, report)) return false;
   try {
-    const ContactCones::Instant now{forces_.rigid, soft_,          compliance_,  end_,
-                                    rows_in_use_,  around_.memory, t + scheme_.h};
+    const RigidInstant now{forces_.rigid, soft_,   compliance_,  end_,
+                           rows_in_use_,  around_, t + scheme_.h};
     if (!cones_.decide(now, scheme_.force, scheme_.end_rate, rigid_)) return false;
   } catch (const StepFailure&) {
     has_accepted_stands_ = accepts_last_stands_;
@@ -187,10 +187,10 @@ bool SmallNewton::decide_cones(double t, const StepReport& report) {
 
 bool SmallNewton::decide_balls(double t, const StepReport& report, bool is_settled) {
   if (balls_.empty() || !may_move(t, report)) return false;
-  const BallCones::Instant now{forces_.rigid, soft_,   compliance_,   at_evaluation(),
-                               rows_in_use_,  around_, t + scheme_.h, &soft_compliance_,
-                               is_settled};
-  if (!balls_.decide(now, scheme_.force, scheme_.end_rate, rigid_)) return false;
+  const RigidInstant now{forces_.rigid, soft_,   compliance_,  at_evaluation(),
+                         rows_in_use_,  around_, t + scheme_.h};
+  if (!balls_.decide(now, {&soft_compliance_, is_settled}, scheme_.force, scheme_.end_rate, rigid_))
+    return false;
   rigid_.count_move();
   return true;
 }
