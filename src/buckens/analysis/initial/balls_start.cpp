@@ -3,16 +3,17 @@
 
 #include <algorithm>
 
+#include "buckens/analysis/initial/frame_acceleration.h"
 #include "buckens/analysis/initial/quasi_static_start.h"
 #include "buckens/dynamics/forces.h"
-#include "buckens/dynamics/travel.h"
 #include "buckens/stepping/ball_cones.h"
 
 namespace buckens::analysis {
 
 namespace {
 
-// Of rigid bodies the second finds nothing to change but for reactions, which press the balls.
+// Directions change from one to the next only as reactions do, which press the balls. What is left
+// after so many is decided by the first step.
 constexpr int kMostAims = 30;
 
 class BallsStart {
@@ -37,10 +38,11 @@ class BallsStart {
     dynamics::evaluate_forces(model_, motions, state_.t, around, forces);
     take_torques();
     foresee(motions, forces.rigid);
-    stepping::BallCones::Instant now{forces.rigid, soft_,  compliance_, motions,
+    const stepping::RigidInstant now{forces.rigid, soft_,  compliance_, motions,
                                      rows_in_use,  around, state_.t};
-    now.begins = true;
-    if (!cones_.decide(now, 1.0, 1.0, rigid_)) return false;
+    stepping::BallCones::Stage stage;
+    stage.begins = true;
+    if (!cones_.decide(now, stage, 1.0, 1.0, rigid_)) return false;
     write();
     return true;
   }
@@ -76,22 +78,8 @@ class BallsStart {
       if (soft_.rigid[k] < 0) continue;
       const model::Load& load = model_.load_of_rigid_row(soft_.rigid[k]);
       if (!owns(load)) continue;
-      const dynamics::LoadEnds ends = dynamics::ends_of(model_, load, motions, &state_.memory);
-      double acceleration = model_.coordinates[static_cast<std::size_t>(load.coordinate)].law.bias(
-          ends.first.motion, ends.second.motion,
-          dynamics::evaluate_bias(model_, load.first, motions),
-          dynamics::evaluate_bias(model_, load.second, motions));
-      for (const dynamics::BodyRow* part : soft_.rows[k].parts()) {
-        if (part->body == model::kGround) continue;
-        const auto b = static_cast<std::size_t>(part->body);
-        const model::BodyState& s = state_.bodies[b];
-        Eigen::Matrix<double, 6, 1> change;
-        change << s.w_dot, s.v_dot;
-        // Vibrations turn many times while a ball gets going.
-        const Eigen::VectorXd y = Eigen::VectorXd::Zero(motions[b].y.size());
-        acceleration += part->change(change, y);
-      }
-      rows[static_cast<std::size_t>(soft_.rigid[k])].slip = acceleration;
+      rows[static_cast<std::size_t>(soft_.rigid[k])].slip =
+          frame_acceleration(model_, load, soft_.rows[k], motions, state_);
     }
   }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "buckens/analysis/initial/frame_acceleration.h"
 #include "buckens/analysis/initial/quasi_static_start.h"
 
 namespace buckens::analysis {
@@ -29,8 +30,9 @@ bool RoughContacts::decide(const dynamics::Forces& forces, model::State& state) 
   ++in_vain_;
   const auto motions = dynamics::motions_of(model_, state);
   dynamics::evaluate_soft_rows(model_, motions, state.t, dynamics::circumstances_of(state), soft_);
-  const stepping::ContactCones::Instant now{forces.rigid, soft_,         compliance_, motions,
-                                            rows_in_use_, &state.memory, state.t};
+  const dynamics::Circumstances around = dynamics::circumstances_of(state);
+  const stepping::RigidInstant now{forces.rigid, soft_,  compliance_, motions,
+                                   rows_in_use_, around, state.t};
   if (!cones_.decide(now, 1.0, kInstant, rigid_)) return false;
   const linalg::Vector before = state.memory.laws;
   write(state);
@@ -72,9 +74,9 @@ void RoughContacts::hold_over(double span, model::State& state) {
   for (std::size_t k = 0; k < forces.rigid.size(); ++k) {
     if (owns(static_cast<int>(k))) rigid_.put(static_cast<int>(k), {rigid_.stands()[k].regime, 0});
   }
-  cones_.hold_over(
-      {forces.rigid, soft_, compliance_, motions, rows_in_use_, &state.memory, state.t}, span,
-      rigid_);
+  const dynamics::Circumstances around = dynamics::circumstances_of(state);
+  cones_.hold_over({forces.rigid, soft_, compliance_, motions, rows_in_use_, around, state.t}, span,
+                   rigid_);
   write(state);
   settle_accelerations(model_, metric_, rows_in_use_, state, cones_.rows());
 }
@@ -105,25 +107,13 @@ void RoughContacts::foresee(const std::vector<dynamics::BodyMotion>& motions,
     const int rigid_row = soft_.rigid[k];
     if (rigid_row < 0 || !owns(rigid_row)) continue;
     const model::Load& load = model_.load_of_rigid_row(rigid_row);
-    const auto first = dynamics::evaluate_marker(model_, load.first, motions);
-    const auto second = dynamics::evaluate_marker(model_, load.second, motions);
-    const joints::JointCoordinate& law =
-        model_.coordinates[static_cast<std::size_t>(load.coordinate)].law;
     double rate = 0.0;
-    double acceleration =
-        law.bias(first.motion, second.motion, dynamics::evaluate_bias(model_, load.first, motions),
-                 dynamics::evaluate_bias(model_, load.second, motions));
     for (const dynamics::BodyRow* part : soft_.rows[k].parts()) {
-      if (part->body == model::kGround) continue;
-      const auto b = static_cast<std::size_t>(part->body);
-      const model::BodyState& s = state.bodies[b];
-      Eigen::Matrix<double, 6, 1> change;
-      change << s.w_dot, s.v_dot;
-      // Vibrations that a step does not resolve have turned many times by its end.
-      const Eigen::VectorXd y = Eigen::VectorXd::Zero(motions[b].y.size());
-      rate += part->rate(motions[b]);
-      acceleration += part->change(change, y);
+      if (part->body != model::kGround) {
+        rate += part->rate(motions[static_cast<std::size_t>(part->body)]);
+      }
     }
+    const double acceleration = frame_acceleration(model_, load, soft_.rows[k], motions, state);
     loads::RigidRow& row = rows[static_cast<std::size_t>(rigid_row)];
     row.slip = rate + span * acceleration;
     row.is_closed = false;
