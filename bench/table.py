@@ -257,7 +257,7 @@ def goal_table(results):
         return []
     head = ["what", "goal", "shortest", "median (spread)", "bound", "peer, on another machine", "met"]
     return ["### Goals", "",
-            "On one thread unless said otherwise. Spreads are quartiles of steps for solids, and ranges of three repetitions for the others. "
+            "On one thread unless said otherwise. A goal is met if the shortest time meets it. Spreads are quartiles of steps for solids, and ranges of three repetitions for the others. "
             "`bound`, in the unit of the measured value: for `full`, one solve, at 30 000 variables "
             "and more as its factor is read twice at the bandwidth of the same run, below as measured; for variants, one variant plus "
             "what additional columns of a solve take, and nothing else; for threads, the largest share of the factor that one of them "
