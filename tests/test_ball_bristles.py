@@ -4,12 +4,17 @@ where the direction of sliding turns."""
 
 import json
 import math
+import pathlib
 import re
+import sys
 
 import numpy
 import pytest
 
 from test_friction_settles import BALLS, OUT_OF_PLANE, SPACE_CRANK
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent / "support"))
+from runge_kutta import runge_kutta  # noqa: E402
 
 # A top that turns about its centre: 20 N press, so that 0.2 x 20 mm x 20 N = 0.08 N m hold.
 TOP = """
@@ -101,7 +106,7 @@ def test_sliding_it_brakes_by_the_bound_against_the_rotation(sensors):
 
 
 def integrated(inertia, torque, bristles, bound, duration):
-    """Angular velocity of a ball with equal moments of inertia, and its deflection, by Runge and Kutta."""
+    """Angular velocity of a ball with equal moments of inertia, and its deflection, by an integration of their law."""
     stiffness, damping, share = bristles
     slid = bound / stiffness
 
@@ -120,14 +125,7 @@ def integrated(inertia, torque, bristles, bound, duration):
         z_dot = bending(y[:3], y[3:])
         return numpy.concatenate([z_dot, (torque(t) - stiffness * y[:3] - damping * z_dot) / inertia])
 
-    y, h, t = numpy.zeros(6), 2e-4, 0.0
-    for k in range(round(duration / h)):
-        t = k * h
-        a = slope(t, y)
-        b = slope(t + 0.5 * h, y + 0.5 * h * a)
-        c = slope(t + 0.5 * h, y + 0.5 * h * b)
-        y = y + h / 6 * (a + 2 * b + 2 * c + slope(t + h, y + h * c))
-    return y
+    return runge_kutta(slope, numpy.zeros(6), duration, round(duration / 2e-4))
 
 
 def test_they_follow_their_law_with_the_square_of_the_step(sensors):

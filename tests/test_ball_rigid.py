@@ -3,10 +3,15 @@
 
 import json
 import math
+import pathlib
 import re
+import sys
 
 import numpy
 import pytest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent / "support"))
+from runge_kutta import runge_kutta  # noqa: E402
 
 # A top that turns about its centre: 20 N press, so that 0.2 x 20 mm x 20 N = 0.08 N m hold.
 TOP = """
@@ -107,7 +112,7 @@ def test_sliding_it_brakes_by_the_bound_against_the_rotation(sensors, tmp_path):
 
 
 def pushed(torque, inertia, duration, steps):
-    """Angular velocity of a ball that slides from the start, by Runge and Kutta."""
+    """Angular velocity of a ball that slides from the start, by an integration of its law."""
     def slope(t, w):
         size = numpy.linalg.norm(w)
         drive = torque(t)
@@ -115,14 +120,7 @@ def pushed(torque, inertia, duration, steps):
         way = w / size if size > 0 else drive / numpy.linalg.norm(drive)
         return (drive - BOUND * way) / inertia
 
-    w, h = numpy.zeros(3), duration / steps
-    for k in range(steps):
-        t = k * h
-        a = slope(t, w)
-        b = slope(t + 0.5 * h, w + 0.5 * h * a)
-        c = slope(t + 0.5 * h, w + 0.5 * h * b)
-        w = w + h / 6 * (a + 2 * b + 2 * c + slope(t + h, w + h * c))
-    return w
+    return runge_kutta(slope, numpy.zeros(3), duration, steps)
 
 
 def test_it_follows_its_law_with_the_square_of_the_step(sensors):
