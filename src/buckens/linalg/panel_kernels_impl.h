@@ -167,55 +167,99 @@ inline void backward_triangle_one(const Panel& panel, double* x) {
   for (int c = 0; c < panel.columns; ++c) own[c] = total(sum[c]);
 }
 
-/// row i of sum = Σ_c (i, c) of the block · y_c, for `Lanes` right-hand sides of `sides`.
-template <int Lanes>
-inline void multiply_block_sides(const double* values, int columns, const double* y, int sides,
-                                 bool must_fetch, typename Simd<Lanes>::Register* sum) {
+// The same for several right-hand sides. Each pass over a block asks for its share of what lies
+// this far ahead, so that memory works while the processor computes; more than a block, of which
+// the first pass reads all.
+constexpr std::ptrdiff_t kAheadOfSides = 10240;
+
+/// `Wide` registers of right-hand sides beside each other: a value of the factor is read once for
+/// all of them. The eight rows of a block take `kPasses` passes, so that sums fit into registers.
+template <int Lanes, int Wide>
+struct Sides {
   using V = typename Simd<Lanes>::Register;
-  V acc[kPanelRows] = {};
+  static constexpr int kCount = Lanes * Wide;
+  // AVX-512 has 32 registers, the others 16.
+  static constexpr int kPasses = Wide > 1 && Lanes < 8 ? 2 : 1;
+  static constexpr int kRows = kPanelRows / kPasses;
+  V part[Wide];
+
+  static Sides load(const double* p) {
+    Sides out;
+#pragma GCC unroll 2
+    for (int w = 0; w < Wide; ++w) out.part[w] = Simd<Lanes>::load(p + w * Lanes);
+    return out;
+  }
+  void store(double* p) const {
+#pragma GCC unroll 2
+    for (int w = 0; w < Wide; ++w) Simd<Lanes>::store(p + w * Lanes, part[w]);
+  }
+  void add(double value, const Sides& x) {
+#pragma GCC unroll 2
+    for (int w = 0; w < Wide; ++w) part[w] += value * x.part[w];
+  }
+
+  Sides negative() const {
+    Sides out;
+#pragma GCC unroll 2
+    for (int w = 0; w < Wide; ++w) out.part[w] = -part[w];
+    return out;
+  }
+  /// Bytes to be fetched with each column, so that all passes over a block fetch as much as it has.
+  static std::ptrdiff_t share(int sides) {
+    constexpr int kLine = kPanelRows * sizeof(double);
+    return (kLine * kCount + sides * kPasses - 1) / (sides * kPasses);
+  }
+};
+
+/// row i of sum = Σ_c (i, c) of the block · y_c, for the rows of one pass. @param values of these
+/// rows in the first column
+template <class S>
+inline void multiply_block_sides(const double* values, int columns, const double* y, int sides,
+                                 const char*& fetch, S* sum) {
+  const std::ptrdiff_t share = S::share(sides);
+  S acc[S::kRows] = {};
   for (int c = 0; c < columns; ++c, values += kPanelRows, y += sides) {
-    if (must_fetch) __builtin_prefetch(values + kAhead);
-    const V side = Simd<Lanes>::load(y);
+    __builtin_prefetch(fetch);
+    fetch += share;
+    const S side = S::load(y);
 #pragma GCC unroll 8
-    for (int i = 0; i < kPanelRows; ++i) acc[i] += values[i] * side;
+    for (int i = 0; i < S::kRows; ++i) acc[i].add(values[i], side);
   }
 #pragma GCC unroll 8
-  for (int i = 0; i < kPanelRows; ++i) sum[i] = acc[i];
+  for (int i = 0; i < S::kRows; ++i) sum[i] = acc[i];
 }
 
-/// y_c += Σ_i (i, c) of the block · x_i, or −=, for `Lanes` right-hand sides of `sides`.
-template <int Lanes, bool kSubtract>
-inline void add_block_sides(const double* end, int columns, const typename Simd<Lanes>::Register* x,
-                            int sides, bool must_fetch, double* y) {
-  using V = typename Simd<Lanes>::Register;
-  V row[kPanelRows];
+/// y_c += Σ_i (i, c) of the block · x_i, for the rows of one pass. @param end of the block, by as
+/// much higher as these rows are
+template <class S>
+inline void add_block_sides(const double* end, int columns, const S* x, int sides,
+                            const char*& fetch, double* y) {
+  const std::ptrdiff_t share = S::share(sides);
+  S row[S::kRows];
 #pragma GCC unroll 8
-  for (int i = 0; i < kPanelRows; ++i) row[i] = x[i];
+  for (int i = 0; i < S::kRows; ++i) row[i] = x[i];
   const double* values = end;
   y += static_cast<std::ptrdiff_t>(columns) * sides;
   for (int c = columns - 1; c >= 0; --c) {
     values -= kPanelRows;
     y -= sides;
-    if (must_fetch) __builtin_prefetch(values - kAhead);
-    V low = values[0] * row[0];
-    V high = values[4] * row[4];
-#pragma GCC unroll 4
-    for (int i = 1; i < 4; ++i) {
-      low += values[i] * row[i];
-      high += values[4 + i] * row[4 + i];
-    }
-    const V before = Simd<Lanes>::load(y);
-    Simd<Lanes>::store(y, kSubtract ? before - (low + high) : before + (low + high));
+    __builtin_prefetch(fetch);
+    fetch -= share;
+    S sum = S::load(y);
+#pragma GCC unroll 8
+    for (int i = 0; i < S::kRows; ++i) sum.add(values[i], row[i]);
+    sum.store(y);
   }
 }
 
-/// Calls f<Lanes>(first right-hand side) until all are done: wide registers, then narrow ones.
+/// Calls f<Sides>(first right-hand side) until all are done: pairs of registers, then single ones.
 template <int Lanes, class F>
 inline void for_sides(int sides, F&& f) {
   int r = 0;
-  for (; r + Lanes <= sides; r += Lanes) f.template operator()<Lanes>(r);
+  for (; r + 2 * Lanes <= sides; r += 2 * Lanes) f.template operator()<Sides<Lanes, 2>>(r);
+  for (; r + Lanes <= sides; r += Lanes) f.template operator()<Sides<Lanes, 1>>(r);
   if constexpr (Lanes > side_multiple()) {
-    for (; r < sides; r += side_multiple()) f.template operator()<side_multiple()>(r);
+    for (; r < sides; r += side_multiple()) f.template operator()<Sides<side_multiple(), 1>>(r);
   }
 }
 
@@ -228,11 +272,16 @@ inline void forward_triangle_several(const Panel& panel, double* x, int sides) {
   const int triangles = panel.triangle_blocks();
   for (int b = 0; b < triangles; ++b) {
     const int columns = panel.triangle_columns(b);
-    for_sides<Lanes>(sides, [&]<int L>(int r) {
-      typename Simd<L>::Register sum[kPanelRows];
-      multiply_block_sides<L>(values, columns, own + r, sides, r == 0, sum);
-      for (int i = 0; i < kPanelRows && kPanelRows * b + i < panel.columns; ++i) {
-        Simd<L>::store(y + (kPanelRows * b + i) * stride + r, sum[i]);
+    const char* fetch = reinterpret_cast<const char*>(values) + kAheadOfSides;
+    for_sides<Lanes>(sides, [&]<class S>(int r) {
+      for (int pass = 0; pass < S::kPasses; ++pass) {
+        S sum[S::kRows];
+        const int above = pass * S::kRows;
+        multiply_block_sides<S>(values + above, columns, own + r, sides, fetch, sum);
+        const int row = kPanelRows * b + above;
+        for (int i = 0; i < S::kRows && row + i < panel.columns; ++i) {
+          sum[i].store(y + (row + i) * stride + r);
+        }
       }
     });
     values += static_cast<std::ptrdiff_t>(kPanelRows) * columns;
@@ -247,13 +296,19 @@ inline void forward_rows_several(const Panel& panel, int begin, int end, double*
   const double* values = row_block(panel, begin);
   const int* rows = panel.rows + static_cast<std::ptrdiff_t>(kPanelRows) * begin;
   for (int b = begin; b < end; ++b, rows += kPanelRows) {
-    for_sides<Lanes>(sides, [&]<int L>(int r) {
-      typename Simd<L>::Register sum[kPanelRows];
-      multiply_block_sides<L>(values, panel.columns, own + r, sides, r == 0, sum);
+    const char* fetch = reinterpret_cast<const char*>(values) + kAheadOfSides;
+    for_sides<Lanes>(sides, [&]<class S>(int r) {
+      for (int pass = 0; pass < S::kPasses; ++pass) {
+        S sum[S::kRows];
+        const int above = pass * S::kRows;
+        multiply_block_sides<S>(values + above, panel.columns, own + r, sides, fetch, sum);
 #pragma GCC unroll 8
-      for (int i = 0; i < kPanelRows; ++i) {
-        double* at_row = x + rows[i] * stride + r;
-        Simd<L>::store(at_row, Simd<L>::load(at_row) - sum[i]);
+        for (int i = 0; i < S::kRows; ++i) {
+          double* at_row = x + rows[above + i] * stride + r;
+          S left = S::load(at_row);
+          left.add(-1.0, sum[i]);
+          left.store(at_row);
+        }
       }
     });
     values += static_cast<std::ptrdiff_t>(kPanelRows) * panel.columns;
@@ -269,11 +324,17 @@ inline void backward_rows_several(const Panel& panel, int begin, int end, double
   const int* rows = panel.rows + static_cast<std::ptrdiff_t>(kPanelRows) * panel.row_blocks;
   for (int b = panel.row_blocks - 1; b >= 0; --b) {
     rows -= kPanelRows;
-    for_sides<Lanes>(sides, [&]<int L>(int r) {
-      typename Simd<L>::Register at_rows[kPanelRows];
+    const char* fetch = reinterpret_cast<const char*>(values - beyond) - kAheadOfSides;
+    for_sides<Lanes>(sides, [&]<class S>(int r) {
+      for (int pass = 0; pass < S::kPasses; ++pass) {
+        const int above = pass * S::kRows;
+        S at_rows[S::kRows];
 #pragma GCC unroll 8
-      for (int i = 0; i < kPanelRows; ++i) at_rows[i] = Simd<L>::load(x + rows[i] * stride + r);
-      add_block_sides<L, true>(values - beyond, end - begin, at_rows, sides, r == 0, own + r);
+        for (int i = 0; i < S::kRows; ++i) {
+          at_rows[i] = S::load(x + rows[above + i] * stride + r).negative();
+        }
+        add_block_sides<S>(values - beyond + above, end - begin, at_rows, sides, fetch, own + r);
+      }
     });
     values -= static_cast<std::ptrdiff_t>(kPanelRows) * panel.columns;
   }
@@ -288,12 +349,17 @@ inline void backward_triangle_several(const Panel& panel, double* x, int sides) 
   for (std::ptrdiff_t k = 0; k < panel.columns * stride; ++k) y[k] = 0.0;
   for (int b = panel.triangle_blocks() - 1; b >= 0; --b) {
     const int columns = panel.triangle_columns(b);
-    for_sides<Lanes>(sides, [&]<int L>(int r) {
-      typename Simd<L>::Register right[kPanelRows] = {};
-      for (int i = 0; i < kPanelRows && kPanelRows * b + i < panel.columns; ++i) {
-        right[i] = Simd<L>::load(own + (kPanelRows * b + i) * stride + r);
+    const char* fetch = reinterpret_cast<const char*>(end) - kAheadOfSides;
+    for_sides<Lanes>(sides, [&]<class S>(int r) {
+      for (int pass = 0; pass < S::kPasses; ++pass) {
+        const int above = pass * S::kRows;
+        const int row = kPanelRows * b + above;
+        S right[S::kRows] = {};
+        for (int i = 0; i < S::kRows && row + i < panel.columns; ++i) {
+          right[i] = S::load(own + (row + i) * stride + r);
+        }
+        add_block_sides<S>(end + above, columns, right, sides, fetch, y + r);
       }
-      add_block_sides<L, false>(end, columns, right, sides, r == 0, y + r);
     });
     end -= static_cast<std::ptrdiff_t>(kPanelRows) * columns;
   }
