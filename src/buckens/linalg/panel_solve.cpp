@@ -20,6 +20,28 @@ constexpr std::ptrdiff_t kSharedRows = std::ptrdiff_t{1} << 18;
 // the nearest cache.
 constexpr int kPlacesAtOnce = 64;
 
+// Right-hand sides that are gathered or scattered together: half of a cache line of what a solve
+// works on.
+constexpr int kSidesAtOnce = 4;
+
+/// Values of `Count` right-hand sides at some places. @param rows at the places, −1 for none
+template <int Count>
+void gather_sides(const int* rows, int places, const double* const* from, double* to, int stride) {
+  for (int k = 0; k < places; ++k, to += stride) {
+    const int row = rows[k];
+    for (int r = 0; r < Count; ++r) to[r] = row < 0 ? 0.0 : from[r][row];
+  }
+}
+
+template <int Count>
+void scatter_sides(const int* rows, int places, const double* from, int stride, double* const* to) {
+  for (int k = 0; k < places; ++k, from += stride) {
+    const int row = rows[k];
+    if (row < 0) continue;
+    for (int r = 0; r < Count; ++r) to[r][row] = from[r];
+  }
+}
+
 bool is_shared(const Panel& panel) {
   return static_cast<std::ptrdiff_t>(sizeof(double)) * kPanelRows * panel.row_blocks *
              panel.columns >=
@@ -195,8 +217,8 @@ void PanelFactor::backward_panels(const Solve& solve, int g, const Team& team) c
   }
 }
 
-// One right-hand side after the other, some places at a time: each is read from memory without the
-// others between, and all are written to the same lines of the cache.
+// Some right-hand sides and places at a time: the lines that are read stay in the cache, and those
+// of all right-hand sides are written together.
 void PanelFactor::gather(const Solve& solve, int g) const {
   const Group& own = group(g);
   const int end = own.first + own.size() + 1;
@@ -204,12 +226,15 @@ void PanelFactor::gather(const Solve& solve, int g) const {
     const int some = std::min(kPlacesAtOnce, end - p);
     const int* rows = origin_.data() + p;
     double* to = solve.at(p);
-    std::fill_n(to, static_cast<std::ptrdiff_t>(some) * solve.sides, 0.0);
-    for (int r = 0; r < solve.columns; ++r) {
-      const double* from = solve.B[r];
-      for (int k = 0; k < some; ++k) {
-        if (rows[k] >= 0) to[static_cast<std::ptrdiff_t>(k) * solve.sides + r] = from[rows[k]];
-      }
+    int r = 0;
+    for (; r + kSidesAtOnce <= solve.columns; r += kSidesAtOnce) {
+      gather_sides<kSidesAtOnce>(rows, some, solve.B + r, to + r, solve.sides);
+    }
+    for (; r < solve.columns; ++r) {
+      gather_sides<1>(rows, some, solve.B + r, to + r, solve.sides);
+    }
+    for (; r < solve.sides; ++r) {
+      for (int k = 0; k < some; ++k) to[static_cast<std::ptrdiff_t>(k) * solve.sides + r] = 0.0;
     }
   }
 }
@@ -221,11 +246,12 @@ void PanelFactor::scatter(const Solve& solve, int g) const {
     const int some = std::min(kPlacesAtOnce, end - p);
     const int* rows = origin_.data() + p;
     const double* from = solve.at(p);
-    for (int r = 0; r < solve.columns; ++r) {
-      double* to = solve.X[r];
-      for (int k = 0; k < some; ++k) {
-        if (rows[k] >= 0) to[rows[k]] = from[static_cast<std::ptrdiff_t>(k) * solve.sides + r];
-      }
+    int r = 0;
+    for (; r + kSidesAtOnce <= solve.columns; r += kSidesAtOnce) {
+      scatter_sides<kSidesAtOnce>(rows, some, from + r, solve.sides, solve.X + r);
+    }
+    for (; r < solve.columns; ++r) {
+      scatter_sides<1>(rows, some, from + r, solve.sides, solve.X + r);
     }
   }
 }
