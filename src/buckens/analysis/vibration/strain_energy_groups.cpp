@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/analysis/vibration/strain_energy_groups.h"
 
+#include <algorithm>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
@@ -59,13 +61,17 @@ const char* kind_name(const fem::ElementBlock& block) {
   return block.has_rotations() ? "beams" : "bars";
 }
 
+bool is_solid_or_empty(const std::shared_ptr<const fem::ElementBlock>& block) {
+  return block->is_solid() || block->num_elements() == 0;
+}
+
 }  // namespace
 
 StrainEnergyGroups::StrainEnergyGroups(const fem::FeModel& fe) {
   const fem::MeshView mesh{fe.nodes, fe.dofs};
   // All the energy is in a group on its own: large meshes of one kind need no second stiffness.
-  if (fe.blocks.size() == 1 && fe.blocks[0]->is_solid() && fe.K.nonZeros() > 0) {
-    names_.emplace_back(kind_name(*fe.blocks[0]));
+  if (std::all_of(fe.blocks.begin(), fe.blocks.end(), is_solid_or_empty) && fe.K.nonZeros() > 0) {
+    names_.emplace_back("solids");
     return;
   }
   const auto add = [&](std::string name, const fem::ElementBlock& block) {
