@@ -38,31 +38,31 @@ inline void store_node(double* p, const Four& value) {
   p[2] = value[2];
 }
 
-/// Products of one column of M with `Count` vectors.
+/// Products of one column of M with `Count` vectors. Four sums of each hide how long one takes.
 template <int Count>
 inline void column_products(const NodeMatrix& M, int node, const double* const* x, Four* sum) {
+  constexpr int kSums = 4;
   const int begin = M.begin[node], end = M.begin[node + 1];
-  Four even[Count] = {}, odd[Count] = {};
+  Four part[kSums][Count] = {};
   // Rows ascend: only the last of them can be the last node.
   const int inner = end > begin && M.rows[end - 1] == M.nodes - 1 ? end - 1 : end;
   int k = begin;
-  for (; k + 1 < inner; k += 2) {
-    const std::ptrdiff_t at = 3 * static_cast<std::ptrdiff_t>(M.rows[k]);
-    const std::ptrdiff_t next = 3 * static_cast<std::ptrdiff_t>(M.rows[k + 1]);
+  for (; k + kSums <= inner; k += kSums) {
+#pragma GCC unroll 4
+    for (int s = 0; s < kSums; ++s) {
+      const std::ptrdiff_t at = 3 * static_cast<std::ptrdiff_t>(M.rows[k + s]);
 #pragma GCC unroll 2
-    for (int i = 0; i < Count; ++i) {
-      even[i] += M.values[k] * load_four(x[i] + at);
-      odd[i] += M.values[k + 1] * load_four(x[i] + next);
+      for (int i = 0; i < Count; ++i) part[s][i] += M.values[k + s] * load_four(x[i] + at);
     }
   }
   for (; k < end; ++k) {
 #pragma GCC unroll 2
     for (int i = 0; i < Count; ++i) {
-      even[i] += M.values[k] * load_node(x[i], M.rows[k], M.nodes - 1);
+      part[0][i] += M.values[k] * load_node(x[i], M.rows[k], M.nodes - 1);
     }
   }
 #pragma GCC unroll 2
-  for (int i = 0; i < Count; ++i) sum[i] = even[i] + odd[i];
+  for (int i = 0; i < Count; ++i) sum[i] = (part[0][i] + part[1][i]) + (part[2][i] + part[3][i]);
 }
 
 inline void multiply_nodes(const NodeMatrix& M, int first, int count, const double* x, double* y) {
