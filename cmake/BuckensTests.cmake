@@ -1,5 +1,6 @@
 # Tests, found by globbing:
 #   src/buckens/<module>/test/*_test.cpp  -> <module>_test      label unit
+#   plugins/petsc/test/*_test.cpp         -> petsc_test         label unit
 #   verification/*/*_test.cpp             -> verification_test  label verify
 #   verification/monolithic/*.cpp         -> buckens_monolithic, a library for those
 #   tests/test_*.py                       -> pytest, label cli
@@ -73,6 +74,10 @@ if(sources)
   buckens_link_library_first(verification_test buckens_monolithic)
   buckens_in_pieces(verification_test "${PROJECT_SOURCE_DIR}" 32)
 endif()
+
+# What needs none of the plug-in's libraries.
+buckens_test(petsc_test unit buckens_base "${PROJECT_SOURCE_DIR}/plugins/petsc/test/arrays_aside_test.cpp"
+             "${PROJECT_SOURCE_DIR}/plugins/petsc/arrays_aside.cpp")
 
 file(GLOB kill_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/kill/*.cpp")
 foreach(source IN LISTS kill_sources)
