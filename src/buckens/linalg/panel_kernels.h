@@ -42,7 +42,8 @@ struct Panel {
 };
 
 /// Solves with consecutive panels for `sides` right-hand sides. Right-hand sides are interleaved:
-/// `x` holds `sides` numbers per place; `sides` is 1 or a multiple of side_multiple().
+/// `x` holds `sides` numbers per place; `sides` is 1 or a multiple of side_multiple(). If there are
+/// several, no bit of one depends on how many stand beside it.
 struct PanelKernels {
   /// For every panel upwards: y = T x at its places, x −= L y at the rows below.
   void (*forward)(const Panel* begin, const Panel* end, double* x, int sides);

@@ -115,6 +115,20 @@ TEST(PanelFactor, DoesNotDependOnTheNumberOfThreads) {
   }
 }
 
+TEST(PanelFactor, SolvesAColumnAlikeWhateverStandsBesideIt) {
+  const SparseMatrix A = grid(10, 0.1);
+  const Matrix B = scattered_block(A.rows(), 32, 5);
+  for (const SimdLevel level : levels_here()) {
+    const SparseCholesky factor(A, {SolveRoute::panels, level});
+    const Matrix all = factor.solve(B);
+    // One alone is summed in another order, in which memory is read at its full speed.
+    for (const Eigen::Index sides : {2, 4, 6, 8, 12, 20, 31}) {
+      const Matrix some = factor.solve(B.leftCols(sides));
+      EXPECT_EQ(some, all.leftCols(sides)) << to_string(level) << ", " << sides;
+    }
+  }
+}
+
 TEST(PanelFactor, SharesReadingAmongThreads) {
   const SparseCholesky factor(grid(16, 0.1), {SolveRoute::panels});
   EXPECT_EQ(factor.busiest_share(1), 1.0);
