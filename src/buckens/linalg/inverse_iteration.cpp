@@ -59,7 +59,7 @@ class Subspace {
   auto basis() const { return V_.leftCols(size_); }
   Eigen::Index wanted() const { return std::min<Eigen::Index>(settings_.count, theta_.size()); }
   bool is_judged() const;
-  bool is_converged(Eigen::Index count) const;
+  Eigen::Index converged() const;
   bool is_nothing_missed() const;
   bool is_changed(const Vector& before) const;
   bool search(bool is_exhausted);
@@ -216,21 +216,23 @@ bool Subspace::is_judged() const {
          sweeps_ >= kFirstJudged && sweeps_ <= kLastJudged;
 }
 
-bool Subspace::is_converged(Eigen::Index count) const {
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const double floor = 10.0 * rounding_ * std::abs(theta_[0]);
-    if (residual_[k] > std::max(settings_.tolerance * std::abs(theta_[k]), floor)) return false;
+/// Pairs up to the first that has not converged.
+Eigen::Index Subspace::converged() const {
+  const double floor = 10.0 * rounding_ * std::abs(theta_[0]);
+  Eigen::Index count = 0;
+  while (count < theta_.size() &&
+         residual_[count] <= std::max(settings_.tolerance * std::abs(theta_[count]), floor)) {
+    ++count;
   }
-  return true;
+  return count;
 }
 
 bool Subspace::is_nothing_missed() const {
-  // The fresh block's best candidate comes right after the wanted pairs: it must be smaller for
-  // certain, or converged itself.
-  const Eigen::Index next = wanted();
-  if (next >= theta_.size()) return block_.cols() == 0;
-  const double bound = std::abs(theta_[next]) + residual_[next];
-  return bound < std::abs(theta_[next - 1]) || is_converged(next + 1);
+  // The fresh block's best candidate is among the converged pairs or comes right after them: then
+  // it must be smaller than the wanted ones for certain.
+  const Eigen::Index next = converged();
+  if (next >= theta_.size()) return true;
+  return std::abs(theta_[next]) + residual_[next] < std::abs(theta_[wanted() - 1]);
 }
 
 InversePairs Subspace::result(bool is_complete) const {
@@ -262,7 +264,8 @@ bool Subspace::is_changed(const Vector& before) const {
 /// Keeps the basis and continues with a fresh block. @return false if there is nothing else
 bool Subspace::search(bool is_exhausted) {
   ++searches_;
-  restart(is_exhausted ? theta_.size() : wanted());
+  // Other pairs have residuals along the block that is left.
+  restart(is_exhausted ? theta_.size() : converged());
   found_ = theta_.head(wanted());
   search_from_ = sweeps_;
   // Of a basis that is closed under A⁻¹M the smallest pairs may be missing, not the largest.
@@ -281,7 +284,7 @@ InversePairs Subspace::run() {
     solve_projected();
     if (is_judged() && !settings_.is_worthwhile(theta_[0])) return result(false);
     const bool is_exhausted = block_.cols() == 0;
-    if (is_exhausted || (theta_.size() >= settings_.count && is_converged(settings_.count))) {
+    if (is_exhausted || converged() >= settings_.count) {
       if (search_from_ < 0) {
         if (!search(is_exhausted)) return result(true);
         continue;
