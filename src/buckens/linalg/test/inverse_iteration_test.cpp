@@ -59,6 +59,22 @@ TEST(InverseIteration, EveryMultiplicityIsComplete) {
   }
 }
 
+// What has converged beyond the wanted pairs is not sought again with those that may be missing.
+TEST(InverseIteration, AMultiplePairThatIsCutCostsNoMore) {
+  constexpr int kBlock = 8;
+  Vector squares(600);
+  for (Eigen::Index k = 0; k < 600; ++k) squares[k] = std::pow(1.0 + static_cast<double>(k / 3), 2);
+  const SparseMatrix M = diagonal(Vector::Ones(600));
+  const auto solves = [&](int count) {
+    const auto pairs = largest_inverse_pairs(M, divided_by(squares), Matrix(600, 0),
+                                             {.count = count, .block = kBlock});
+    EXPECT_TRUE(pairs.is_complete);
+    return pairs.solves;
+  };
+  // The seventh of them whole, and cut before its last; a sweep more or less is rounding.
+  EXPECT_LE(solves(20), solves(21) + kBlock);
+}
+
 TEST(InverseIteration, DeflatedVectorsStayOut) {
   const Vector squares = Vector::LinSpaced(60, 1.0, 60.0);
   const SparseMatrix M = diagonal(Vector::Ones(60));
