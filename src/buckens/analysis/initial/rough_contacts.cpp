@@ -29,8 +29,8 @@ bool RoughContacts::decide(const dynamics::Forces& forces, model::State& state) 
   if (in_vain_ >= kMostInVain || cones_.hold(forces.rigid, rigid_)) return false;
   ++in_vain_;
   const auto motions = dynamics::motions_of(model_, state);
-  dynamics::evaluate_soft_rows(model_, motions, state.t, dynamics::circumstances_of(state), soft_);
   const dynamics::Circumstances around = dynamics::circumstances_of(state);
+  dynamics::evaluate_soft_rows(model_, motions, state.t, around, soft_);
   const stepping::RigidInstant now{forces.rigid, soft_,  compliance_, motions,
                                    rows_in_use_, around, state.t};
   if (!cones_.decide(now, 1.0, kInstant, rigid_)) return false;
