@@ -75,9 +75,9 @@ if(sources)
   buckens_in_pieces(verification_test "${PROJECT_SOURCE_DIR}" 32)
 endif()
 
-# What needs none of the plug-in's libraries.
-buckens_test(petsc_test unit buckens_base "${PROJECT_SOURCE_DIR}/plugins/petsc/test/arrays_aside_test.cpp"
-             "${PROJECT_SOURCE_DIR}/plugins/petsc/arrays_aside.cpp")
+# What of the plug-in needs none of its libraries.
+file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/plugins/petsc/test/*_test.cpp")
+buckens_test(petsc_test unit buckens_base ${sources} "${PROJECT_SOURCE_DIR}/plugins/petsc/arrays_aside.cpp")
 
 file(GLOB kill_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/kill/*.cpp")
 foreach(source IN LISTS kill_sources)
