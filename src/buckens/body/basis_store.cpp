@@ -45,7 +45,8 @@ std::uint64_t basis_key(const FlexiblePart& part, const std::string& choice) {
   const Eigen::SparseMatrix<double, Eigen::RowMajor> N = part.rows.topRows(part.num_interface_rows);
   hash.add_matrix(N);
   hash.add(static_cast<std::uint64_t>(part.num_pattern_rows));
-  for (Eigen::Index k = 0; k < part.fe.shape.c.size(); ++k) hash.add(part.fe.shape.c.data()[k]);
+  const linalg::Matrix c = part.invariants.first_moments();
+  for (Eigen::Index k = 0; k < c.size(); ++k) hash.add(c.data()[k]);
   return hash.value();
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/body/nodal_motion.h"
 #include "buckens/body/rigid_modes.h"
 #include "buckens/linalg/conjugate_gradients.h"
 #include "buckens/linalg/matrix_sum.h"
@@ -49,7 +50,14 @@ FlexiblePart::FlexiblePart(const std::string& body, fem::FeModel model, Coupling
       sieve(make_sieve(body, fe)),
       invariants(fe.shape),
       C(damping_matrix(fe)),
-      coupling(std::move(choice)) {}
+      coupling(std::move(choice)) {
+  if (num_dofs() < NodalMotion::kFewestVariables) return;
+  nodal_motion = NodalMotion::of(*this);
+  if (!nodal_motion) return;
+  sieve.keep_by_node(nodal_motion);
+  invariants.keep_by_node(nodal_motion);
+  fe.shape.c = linalg::Matrix();
+}
 
 void FlexiblePart::stiffen() {
   geometric = std::make_unique<const fem::GeometricStiffness>(fe);

@@ -38,6 +38,8 @@ struct FlexiblePart {
   fem::FeModel fe;  ///< of the equations of motion
   Sieve sieve;
   InertiaInvariants invariants;
+  /// Of large solids: what sieve and invariants are formed from, node by node. Otherwise null.
+  std::shared_ptr<const NodalMotion> nodal_motion;
   linalg::SymmetricMatrix C;  ///< α M + Σ β K, FM (22); empty pattern where undamped
   CouplingChoice coupling;
   /// Quasi-static deformation without inertia: rates of deformation are always zero.

@@ -148,7 +148,7 @@ class Pass {
   }
 
   void add_by_lookup(const fem::NodalMass& mass) {
-    const SparseMatrix& Ms = mass.Ms;
+    const SparseMatrix& Ms = *mass.Ms;
     for (int node = 0; node < Ms.outerSize(); ++node) {
       Vector3d Md = Vector3d::Zero(), Mv = Vector3d::Zero();
       for (SparseMatrix::InnerIterator it(Ms, node); it; ++it) {

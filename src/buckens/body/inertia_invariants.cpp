@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/body/inertia_invariants.h"
 
+#include <utility>
+
 #include "buckens/body/deformation_coupling.h"
 #include "buckens/body/nodal_inertia.h"
+#include "buckens/body/nodal_motion.h"
 #include "buckens/body/second_moments.h"
 
 namespace buckens::body {
@@ -43,12 +46,29 @@ InertiaInvariants::InertiaInvariants(const fem::ShapeIntegrals& shape) : shape_(
   }
 }
 
+void InertiaInvariants::keep_by_node(std::shared_ptr<const NodalMotion> motion) {
+  by_node_ = std::move(motion);
+  patterns_ = Matrix();
+}
+
+Matrix InertiaInvariants::centrifugal_patterns() const {
+  return by_node_ ? by_node_->patterns() : patterns_;
+}
+
+Eigen::Matrix<double, 6, 1> InertiaInvariants::pattern_values(const Vector& d) const {
+  return by_node_ ? NodalMotion::patterns(by_node_->moments(d)) : patterns_.transpose() * d;
+}
+
+Vector InertiaInvariants::centrifugal_load(const Eigen::Matrix<double, 6, 1>& weights) const {
+  return by_node_ ? by_node_->pattern_load(weights) : Vector(patterns_ * weights);
+}
+
+Matrix InertiaInvariants::first_moments() const {
+  return by_node_ ? by_node_->first_moments() : shape_->c;
+}
+
 Matrix3d InertiaInvariants::rotary_inertia(const Vector& d) const {
-  Matrix3d S1;
-  for (int a = 0; a < 3; ++a) {
-    for (int b = 0; b < 3; ++b) S1(a, b) = shape_->c.col(3 * a + b).dot(d);
-  }
-  return shape_->J0 + to_inertia(S1 + S1.transpose() + bilinear(*shape_, d, d));
+  return shape_->J0 + linear_inertia(pattern_values(d)) + to_inertia(bilinear(*shape_, d, d));
 }
 
 Vector3d InertiaInvariants::relative_momentum(const Vector& d, const Vector& d_dot) const {
@@ -69,8 +89,8 @@ Matrix3d InertiaInvariants::linear_inertia(const Eigen::Matrix<double, 6, 1>& z)
 DeformedMoments InertiaInvariants::moments(const Vector& d, const Vector& d_dot,
                                            const Vector& d_ddot) const {
   DeformedMoments out = quadratic_moments(d, d_dot, d_ddot);
-  out.J += shape_->J0 + linear_inertia(patterns_.transpose() * d);
-  out.J_dot += linear_inertia(patterns_.transpose() * d_dot);
+  out.J += shape_->J0 + linear_inertia(pattern_values(d));
+  out.J_dot += linear_inertia(pattern_values(d_dot));
   return out;
 }
 

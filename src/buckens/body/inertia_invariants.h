@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+
 #include "buckens/body/coupling_level.h"
 #include "buckens/fem/fe_model.h"
 #include "buckens/linalg/matrix_types.h"
 
 namespace buckens::body {
+
+class NodalMotion;
 
 /// The 3×3 moments of a deformed body that couple its frame and nodal variables.
 ///
@@ -25,6 +29,9 @@ struct DeformedMoments {
 class InertiaInvariants {
  public:
   explicit InertiaInvariants(const fem::ShapeIntegrals& shape);
+  /// Drops the columns that are stored, in favour of what they follow from; `shape` need not have
+  /// its columns c any longer.
+  void keep_by_node(std::shared_ptr<const NodalMotion> motion);
 
   /// Rotary inertia of the deformed body [kg m²]. Cost: six sparse products; for solids one with
   /// the scalar mass matrix (also below).
@@ -42,7 +49,7 @@ class InertiaInvariants {
                                     const linalg::Vector& d_ddot) const;
 
   /// J₁, the part of J linear in d, from six numbers.
-  /// @param z centrifugal_patterns()ᵀ d; with ḋ instead of d the result is J̇₁
+  /// @param z pattern_values(d); with ḋ instead of d the result is J̇₁
   static Eigen::Matrix3d linear_inertia(const Eigen::Matrix<double, 6, 1>& z);
 
   /// y ← y + Σ_ab A_ab W_ab x.
@@ -55,14 +62,23 @@ class InertiaInvariants {
                                   const CouplingTerms& kept = {}) const;
 
   /// Centrifugal load patterns of the undeformed body, n×6: columns for the weights returned by
-  /// centrifugal_weights(), FM (24).
-  const linalg::Matrix& centrifugal_patterns() const { return patterns_; }
+  /// centrifugal_weights(), FM (24). Copied or formed on each call.
+  linalg::Matrix centrifugal_patterns() const;
+  /// The same where they are stored, else empty.
+  const linalg::Matrix& stored_patterns() const { return patterns_; }
+  /// Products of these columns with d, c_ab·d.
+  Eigen::Matrix<double, 6, 1> pattern_values(const linalg::Vector& d) const;
+  /// The sum of these columns with weights.
+  linalg::Vector centrifugal_load(const Eigen::Matrix<double, 6, 1>& weights) const;
+  /// The columns c_ab of fem::ShapeIntegrals, n×9; copied or formed on each call.
+  linalg::Matrix first_moments() const;
   /// (|w|²δ − w w) as (11, 22, 33, 12, 13, 23) [rad²/s²].
   static Eigen::Matrix<double, 6, 1> centrifugal_weights(const Eigen::Vector3d& w);
 
  private:
   const fem::ShapeIntegrals* shape_;
   linalg::Matrix patterns_;
+  std::shared_ptr<const NodalMotion> by_node_;  // in place of them, or null
 };
 
 }  // namespace buckens::body

@@ -82,14 +82,16 @@ ModeOperator sieved_operator(const SparseMatrix& M, const SparseMatrix& K, const
   }
   // Yᵀ and Y commute with K + μM; both are applied so that rigid motion never grows to a size
   // that rounding cannot remove.
-  op.inverse = [factor, &sieve, pool = op.pool](Matrix& F) {
-    const auto remove = [&](const Matrix& P, const Matrix& Phi) {
-      const Matrix shares = linalg::inner_products(Phi, F, pool.get());
-      linalg::subtract_combinations(P, shares, F, pool.get());
+  const auto P = std::make_shared<const Matrix>(sieve.P());
+  const auto Phi = std::make_shared<const Matrix>(sieve.Phi());
+  op.inverse = [factor, P, Phi, pool = op.pool](Matrix& F) {
+    const auto remove = [&](const Matrix& columns, const Matrix& rows) {
+      const Matrix shares = linalg::inner_products(rows, F, pool.get());
+      linalg::subtract_combinations(columns, shares, F, pool.get());
     };
-    remove(sieve.P(), sieve.Phi());
+    remove(*P, *Phi);
     factor->solve_in_place(F, pool.get());
-    remove(sieve.Phi(), sieve.P());
+    remove(*Phi, *P);
   };
   op.multiply = [A](const Vector& x) -> Vector { return *A * x; };
   op.solve = [factor](const Vector& b) -> Vector {
@@ -103,8 +105,9 @@ ModeOperator sieved_operator(const SparseMatrix& M, const SparseMatrix& K, const
 
 ModeOperator augmented_operator(const SparseMatrix& K, const Sieve& sieve) {
   const Eigen::Index n = K.rows();
-  const double size = K.diagonal().cwiseAbs().maxCoeff() / sieve.P().cwiseAbs().maxCoeff();
-  const auto A = std::make_shared<SparseMatrix>(bordered(K, size * sieve.P()));
+  const Matrix P = sieve.P();
+  const double size = K.diagonal().cwiseAbs().maxCoeff() / P.cwiseAbs().maxCoeff();
+  const auto A = std::make_shared<SparseMatrix>(bordered(K, size * P));
   const auto factor = std::make_shared<linalg::SparseLu>(*A);
   if (factor->predicted_entries() > kMostEntries) {
     throw ModelError(
@@ -119,7 +122,7 @@ ModeOperator augmented_operator(const SparseMatrix& K, const Sieve& sieve) {
   }
   ModeOperator op;
   op.factor_entries = factor->num_factor_entries();
-  const Eigen::Index border = sieve.P().cols();
+  const Eigen::Index border = P.cols();
   op.inverse = [factor, n, border](Matrix& F) {
     Matrix X = Matrix::Zero(n + border, F.cols());
     X.topRows(n) = F;
@@ -136,7 +139,7 @@ ModeOperator augmented_operator(const SparseMatrix& K, const Sieve& sieve) {
   op.scale.resize(n + border);
   op.scale.head(n) = unit_diagonal(K.diagonal());
   for (Eigen::Index k = 0; k < border; ++k) {
-    op.scale[n + k] = 1.0 / (size * op.scale.head(n).cwiseProduct(sieve.P().col(k)).norm());
+    op.scale[n + k] = 1.0 / (size * op.scale.head(n).cwiseProduct(P.col(k)).norm());
   }
   return op;
 }

@@ -13,7 +13,7 @@ using linalg::Vector;
 namespace {
 
 bool is_numbered_by_node(const fem::NodalMass& mass) {
-  if (!mass.Ms.isCompressed()) return false;
+  if (mass.empty() || !mass.Ms->isCompressed()) return false;
   for (std::size_t node = 0; node < mass.dofs.size(); ++node) {
     const int first = 3 * static_cast<int>(node);
     if (mass.dofs[node] != std::array<int, 3>{first, first + 1, first + 2}) return false;
@@ -29,7 +29,7 @@ linalg::NodeMatrix node_matrix(const linalg::SparseMatrix& Ms) {
 
 NodalInertia::NodalInertia(const fem::NodalMass& mass)
     : mass_(&mass), is_regular_(is_numbered_by_node(mass)) {
-  if (is_regular_) matrix_ = node_matrix(mass.Ms);
+  if (is_regular_) matrix_ = node_matrix(*mass.Ms);
 }
 
 Matrix3Xd NodalInertia::by_node(const Vector& x) const {
@@ -43,10 +43,10 @@ Matrix3Xd NodalInertia::by_node(const Vector& x) const {
   return X;
 }
 
-Matrix3Xd NodalInertia::times_mass(const Vector& x) const { return by_node(x) * mass_->Ms; }
+Matrix3Xd NodalInertia::times_mass(const Vector& x) const { return by_node(x) * *mass_->Ms; }
 
 void NodalInertia::multiply(const Vector& x, Vector& y, TaskPool* pool) const {
-  const linalg::SparseMatrix& Ms = mass_->Ms;
+  const linalg::SparseMatrix& Ms = *mass_->Ms;
   if (is_regular_ && y.size() == 3 * Ms.outerSize()) {
     const linalg::NodeKernels& kernels = linalg::node_kernels();
     const linalg::RowParts nodes(Ms.outerSize());

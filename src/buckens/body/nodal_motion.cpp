@@ -3,6 +3,7 @@
 
 #include "buckens/body/nodal_inertia.h"
 #include "buckens/body/second_moments.h"
+#include "buckens/linalg/same_bits.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::body {
@@ -42,51 +43,100 @@ std::shared_ptr<const NodalMotion> NodalMotion::of(const FlexiblePart& part) {
 
 NodalMotion::NodalMotion(const FlexiblePart& part)
     : kernels_(&linalg::node_kernels()),
+      Ms_(part.fe.shape.nodal.Ms),
       positions_(4, static_cast<Index>(part.fe.nodes.size())),
-      first_moments_(4, positions_.cols()) {
-  const linalg::SparseMatrix& Ms = part.fe.shape.nodal.Ms;
-  values_.assign(Ms.valuePtr(), Ms.valuePtr() + Ms.nonZeros());
-  rows_.assign(Ms.innerIndexPtr(), Ms.innerIndexPtr() + Ms.nonZeros());
-  begin_.assign(Ms.outerIndexPtr(), Ms.outerIndexPtr() + Ms.outerSize() + 1);
+      to_axes_(part.sieve.to_axes()) {
   for (Index j = 0; j < positions_.cols(); ++j) {
     const Eigen::Vector3d X =
         part.fe.nodes[static_cast<std::size_t>(j)].position - part.fe.shape.com;
     positions_.col(j) << X, 1.0;
   }
-  first_moments_ = positions_ * Ms;
-  for (Index k = 0; k < 6; ++k) to_axes_.col(k) = part.sieve.rigid_part(part.sieve.Phi().col(k));
+  first_moments_ = positions_ * *Ms_;
 }
 
 bool NodalMotion::describes(const FlexiblePart& part) const {
-  const Index n = part.num_dofs();
-  for (Index k = 0; k < 6; ++k) {
-    const Matrix4d T = motion(Vector6::Unit(k));
-    const Matrix Phi = T.topRows<3>() * positions_;
-    const Matrix P = T.topRows<3>() * first_moments_;
-    if (!are_close(Eigen::Map<const Vector>(Phi.data(), n), part.sieve.Phi().col(k)) ||
-        !are_close(Eigen::Map<const Vector>(P.data(), n), part.sieve.P().col(k))) {
-      return false;
+  const auto are_alike = [](const Matrix& a, const Matrix& b) {
+    for (Index k = 0; k < b.cols(); ++k) {
+      if (!are_close(a.col(k), b.col(k))) return false;
     }
-    const auto [a, b] = kPairs[static_cast<std::size_t>(k)];
-    Eigen::Matrix3Xd pattern = Eigen::Matrix3Xd::Zero(3, positions_.cols());
-    pattern.row(b) += first_moments_.row(a);
-    if (a != b) pattern.row(a) += first_moments_.row(b);
-    if (!are_close(Eigen::Map<const Vector>(pattern.data(), n),
-                   part.invariants.centrifugal_patterns().col(k))) {
-      return false;
-    }
-  }
-  return true;
+    return a.cols() == b.cols();
+  };
+  return are_alike(Phi(), part.sieve.Phi()) && are_alike(P(), part.sieve.P()) &&
+         are_alike(first_moments(), part.invariants.first_moments());
 }
 
 bool NodalMotion::operator==(const NodalMotion& other) const {
   return positions_ == other.positions_ && first_moments_ == other.first_moments_ &&
-         to_axes_ == other.to_axes_ && values_ == other.values_ && rows_ == other.rows_ &&
-         begin_ == other.begin_;
+         to_axes_ == other.to_axes_ &&
+         (Ms_ == other.Ms_ || linalg::have_same_bits(*Ms_, *other.Ms_));
 }
 
-linalg::NodeMatrix NodalMotion::mass() const {
-  return {values_.data(), rows_.data(), begin_.data(), static_cast<int>(positions_.cols())};
+linalg::NodeMatrix NodalMotion::mass() const { return node_matrix(*Ms_); }
+
+NodalMotion::Vector6 NodalMotion::resultants(const Input& f) const {
+  NodeSums sums;
+  kernels_->moments(positions_.data(), 0, static_cast<int>(positions_.cols()), f.data(), sums);
+  return rigid(sums);
+}
+
+void NodalMotion::subtract_motion(const Vector6& a, InPlace x) const {
+  kernels_->subtract(positions_.data(), 0, static_cast<int>(positions_.cols()), motion(a).data(),
+                     x.data());
+}
+
+void NodalMotion::subtract_load(const Vector6& a, InPlace f) const {
+  kernels_->subtract(first_moments_.data(), 0, static_cast<int>(positions_.cols()),
+                     motion(a).data(), f.data());
+}
+
+NodeSums NodalMotion::moments(const Input& x) const {
+  NodeSums sums;
+  kernels_->moments(first_moments_.data(), 0, static_cast<int>(positions_.cols()), x.data(), sums);
+  return sums;
+}
+
+Vector NodalMotion::pattern_load(const Vector6& weights) const {
+  Matrix4d T = Matrix4d::Zero();
+  for (std::size_t k = 0; k < kPairs.size(); ++k) {
+    const auto [a, b] = kPairs[k];
+    T(b, a) -= weights[static_cast<Index>(k)];
+    if (a != b) T(a, b) -= weights[static_cast<Index>(k)];
+  }
+  Vector load = Vector::Zero(num_dofs());
+  kernels_->subtract(first_moments_.data(), 0, static_cast<int>(positions_.cols()), T.data(),
+                     load.data());
+  return load;
+}
+
+/// Those of the six motions that `places` make. @param places positions or first moments
+Matrix NodalMotion::columns(const Eigen::Matrix4Xd& places) const {
+  Matrix out(num_dofs(), 6);
+  for (Index k = 0; k < 6; ++k) {
+    Eigen::Map<Eigen::Matrix3Xd>(out.col(k).data(), 3, places.cols()) =
+        motion(Vector6::Unit(k)).topRows<3>() * places;
+  }
+  return out;
+}
+
+Matrix NodalMotion::Phi() const { return columns(positions_); }
+
+Matrix NodalMotion::P() const { return columns(first_moments_); }
+
+Matrix NodalMotion::patterns() const {
+  Matrix out(num_dofs(), 6);
+  for (Index k = 0; k < 6; ++k) out.col(k) = pattern_load(Vector6::Unit(k));
+  return out;
+}
+
+Matrix NodalMotion::first_moments() const {
+  Matrix out = Matrix::Zero(num_dofs(), 9);
+  for (Index a = 0; a < 3; ++a) {
+    for (Index b = 0; b < 3; ++b) {
+      Eigen::Map<Eigen::Matrix3Xd>(out.col(3 * a + b).data(), 3, positions_.cols()).row(b) =
+          first_moments_.row(a);
+    }
+  }
+  return out;
 }
 
 void NodalMotion::multiply_mass(Index first, Index size, const Vector& x, Vector& y) const {

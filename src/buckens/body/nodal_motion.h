@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "buckens/body/body.h"
 #include "buckens/linalg/node_kernels.h"
@@ -16,11 +15,15 @@ namespace buckens::body {
 ///
 ///     Φ_j (t, r) = t + r × X_j,   Pᵀx = (Σ m_j x_j, Σ s_j × x_j),   c_ab·x = Σ s_ja x_jb:
 ///
-/// four numbers per node instead of the eighteen of each of Φ, P and the patterns. It also holds a
-/// copy of Ms, so that variants of a model can read one instead of one each.
+/// four numbers per node instead of the eighteen of each of Φ, P and the patterns. It holds Ms,
+/// too, so that variants of a model can read one instead of one each.
 class NodalMotion {
  public:
   using Vector6 = Eigen::Matrix<double, 6, 1>;
+  using Input = Eigen::Ref<const linalg::Vector>;
+  using InPlace = Eigen::Ref<linalg::Vector>;
+  /// Bodies with fewer variables keep matrices: theirs are multiplied as a whole.
+  static constexpr Eigen::Index kFewestVariables = 25;
 
   /// Empty if the body is something else; Φ, P and the patterns that it has are compared.
   static std::shared_ptr<const NodalMotion> of(const FlexiblePart& part);
@@ -30,6 +33,24 @@ class NodalMotion {
   /// The scalar mass matrix, as long as this object lives.
   linalg::NodeMatrix mass() const;
 
+  /// Pᵀx, amplitudes of the orthonormal motions of the sieve.
+  Vector6 momenta(const Input& x) const { return rigid(moments(x)); }
+  /// Φᵀf of loads.
+  Vector6 resultants(const Input& f) const;
+  /// x −= Φ a.
+  void subtract_motion(const Vector6& a, InPlace x) const;
+  /// f −= P a.
+  void subtract_load(const Vector6& a, InPlace f) const;
+  /// What rigid() and patterns() need of all variables.
+  linalg::NodeSums moments(const Input& x) const;
+  /// Σ weight × c_ab.
+  linalg::Vector pattern_load(const Vector6& weights) const;
+  /// The columns themselves: Φ, P and c_ab, n×6 each, and ∫ s0_a g_b dm, n×9.
+  linalg::Matrix Phi() const;
+  linalg::Matrix P() const;
+  linalg::Matrix patterns() const;
+  linalg::Matrix first_moments() const;
+
   /// y = M x at some variables, whole nodes, of a body whose M is the scalar mass matrix.
   void multiply_mass(Eigen::Index first, Eigen::Index size, const linalg::Vector& x,
                      linalg::Vector& y) const;
@@ -37,9 +58,9 @@ class NodalMotion {
   /// Adds what rigid() and patterns() need of some variables of x, whole nodes.
   void add_moments(Eigen::Index first, Eigen::Index size, const linalg::Vector& x,
                    linalg::NodeSums& sums) const;
-  /// Pᵀx of the orthonormal motions of the sieve.
+  /// Pᵀx.
   Vector6 rigid(const linalg::NodeSums& sums) const;
-  /// c_ab·x in the order of InertiaInvariants::centrifugal_patterns().
+  /// c_ab·x in the order of the columns patterns().
   static Vector6 patterns(const linalg::NodeSums& sums);
 
   /// T with Φ_j a = T (X_j, 1), columns of four numbers. @param rigid amplitudes a of the sieve
@@ -52,13 +73,14 @@ class NodalMotion {
   explicit NodalMotion(const FlexiblePart& part);
   bool describes(const FlexiblePart& part) const;
 
+  Eigen::Index num_dofs() const { return 3 * positions_.cols(); }
+  linalg::Matrix columns(const Eigen::Matrix4Xd& places) const;
+
   const linalg::NodeKernels* kernels_;
-  std::vector<double> values_;      // of Ms
-  std::vector<int> rows_, begin_;   // the same
-  Eigen::Matrix4Xd positions_;      // X, 1
-  Eigen::Matrix4Xd first_moments_;  // s, m
-  /// From amplitudes of the orthonormal motions to translations and rotations.
-  Eigen::Matrix<double, 6, 6> to_axes_;
+  std::shared_ptr<const linalg::SparseMatrix> Ms_;
+  Eigen::Matrix4Xd positions_;           // X, 1
+  Eigen::Matrix4Xd first_moments_;       // s, m
+  Eigen::Matrix<double, 6, 6> to_axes_;  // as of the sieve
 };
 
 }  // namespace buckens::body

@@ -147,7 +147,7 @@ Matrix self_equilibrated(const FlexiblePart& part, const Matrix& loads) {
 /// Patterns, held by interface loads as far as those have resultants, and not by inertia.
 Matrix held_by(const FlexiblePart& part, const Matrix& patterns, const Matrix& loads) {
   if (patterns.cols() == 0 || loads.cols() == 0) return patterns;
-  const Matrix& Phi = part.sieve.Phi();
+  const Matrix Phi = part.sieve.Phi();
   linalg::PseudoInverse from_resultants;
   from_resultants.compute(Phi.transpose() * loads);
   const Matrix amounts = from_resultants * Matrix(Phi.transpose() * patterns);
@@ -156,8 +156,8 @@ Matrix held_by(const FlexiblePart& part, const Matrix& patterns, const Matrix& l
 
 /// The lowest free vibrations, without leaving out partners of equal frequency.
 FreeModes free_groups(const FlexiblePart& part, int modes) {
-  return lowest_groups(at_most(part, modes), [&part](int count) {
-    return free_modes(part.fe.M, part.fe.K, part.sieve.Phi(), count);
+  return lowest_groups(at_most(part, modes), [&part, Phi = part.sieve.Phi()](int count) {
+    return free_modes(part.fe.M, part.fe.K, Phi, count);
   });
 }
 

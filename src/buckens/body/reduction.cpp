@@ -48,7 +48,7 @@ fem::ShapeIntegrals projected(const FlexiblePart& part, const Matrix& Z) {
   out.com = full.com;
   out.C0 = full.C0;
   out.J0 = full.J0;
-  out.c = Z.transpose() * full.c;
+  out.c = Z.transpose() * part.invariants.first_moments();
   for (std::size_t k = 0; k < out.W.size(); ++k) {
     Eigen::Matrix3d pair = Eigen::Matrix3d::Zero();
     pair(kPairs[k][0], kPairs[k][1]) = 1.0;

@@ -113,8 +113,8 @@ class Condensation {
 void condense_nodal_mass(const fem::NodalMass& full, const Condensation& elimination,
                          fem::ShapeIntegrals& out) {
   std::vector<Triplet> kept, taken;
-  for (int column = 0; column < full.Ms.outerSize(); ++column) {
-    for (SparseMatrix::InnerIterator it(full.Ms, column); it; ++it) {
+  for (int column = 0; column < full.Ms->outerSize(); ++column) {
+    for (SparseMatrix::InnerIterator it(*full.Ms, column); it; ++it) {
       const auto row = static_cast<std::size_t>(it.row());
       const bool is_free =
           elimination.is_free(row) && elimination.is_free(static_cast<std::size_t>(column));
@@ -122,12 +122,13 @@ void condense_nodal_mass(const fem::NodalMass& full, const Condensation& elimina
     }
   }
   const auto num_nodes = static_cast<Eigen::Index>(elimination.nodes().size());
-  out.nodal.Ms.resize(num_nodes, num_nodes);
-  out.nodal.Ms.setFromTriplets(kept.begin(), kept.end());
+  auto Ms = std::make_shared<SparseMatrix>(num_nodes, num_nodes);
+  Ms->setFromTriplets(kept.begin(), kept.end());
+  out.nodal.Ms = std::move(Ms);
   for (const auto& node : elimination.dofs().node_dofs) {
     out.nodal.dofs.push_back({node[0], node[1], node[2]});
   }
-  SparseMatrix rest(full.Ms.rows(), full.Ms.cols());
+  SparseMatrix rest(full.Ms->rows(), full.Ms->cols());
   rest.setFromTriplets(taken.begin(), taken.end());
   std::array<SparseMatrix, 3> weighted, own;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -150,7 +151,7 @@ fem::ShapeIntegrals condensed(const fem::ShapeIntegrals& full, const Condensatio
   out.J0 = full.J0;
   out.c = elimination.T().transpose() * full.c;
   for (std::size_t k = 0; k < out.W.size(); ++k) out.W[k] = elimination.condensed(full.W[k]);
-  if (full.nodal.Ms.nonZeros() > 0) {
+  if (!full.nodal.empty()) {
     condense_nodal_mass(full.nodal, elimination, out);
   }
   return out;
@@ -174,7 +175,9 @@ fem::FeModel condensed(const fem::FeModel& full, const Condensation& elimination
 
 LinkedPart with_links(const std::string& body, FlexiblePart& part,
                       const std::vector<RigidRegion>& regions, const fem::NodeLinks& links) {
+  linalg::Matrix first_moments = part.invariants.first_moments();
   auto full = std::make_shared<fem::FeModel>(std::move(part.fe));
+  full->shape.c = std::move(first_moments);
   refuse_common_nodes(body, full->nodes.size(), regions);
   Condensation elimination(*full, regions, links);
   fem::FeModel fe = condensed(*full, elimination);
@@ -192,9 +195,10 @@ LinkedPart with_links(const std::string& body, FlexiblePart& part,
     out.note = loose_motions_note(*full, loose);
   }
   out.part = std::make_unique<FlexiblePart>(body, std::move(fe), part.coupling);
-  // Steps need M of the full mesh, for coordinates of given displacements, but not K.
+  // Steps need M of the full mesh, for coordinates of given displacements, but nothing else.
   full->K = {};
   full->K_damping = {};
+  full->shape.c = {};
   out.part->full_mesh = std::move(full);
   out.part->recovery = NodalRecovery(elimination.T());
   return out;

@@ -2,7 +2,9 @@
 #include "buckens/body/sieve.h"
 
 #include <cmath>
+#include <utility>
 
+#include "buckens/body/nodal_motion.h"
 #include "buckens/linalg/symmetric_eigen.h"
 
 namespace buckens::body {
@@ -43,25 +45,61 @@ Sieve::Sieve(const Matrix& Phi, const linalg::SymmetricMatrix& M) {
   P_ = M * Phi_;
 }
 
+void Sieve::keep_by_node(std::shared_ptr<const NodalMotion> motion) {
+  by_node_ = std::move(motion);
+  Phi_ = P_ = Matrix();
+}
+
+Matrix Sieve::Phi() const { return by_node_ ? by_node_->Phi() : Phi_; }
+
+Matrix Sieve::P() const { return by_node_ ? by_node_->P() : P_; }
+
 void Sieve::apply(Vector& d) const {
   if (rank() == 0) return;
+  if (by_node_) {
+    by_node_->subtract_motion(by_node_->momenta(d), d);
+    return;
+  }
   const Amplitudes rigid = P_.transpose() * d;
   d.noalias() -= Phi_ * rigid;
 }
 
 void Sieve::apply(Matrix& columns) const {
   if (rank() == 0) return;
+  if (by_node_) {
+    for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+      by_node_->subtract_motion(by_node_->momenta(columns.col(k)), columns.col(k));
+    }
+    return;
+  }
   const Matrix amplitudes = P_.transpose() * columns;
   columns.noalias() -= Phi_ * amplitudes;
 }
 
 void Sieve::apply_transposed(Vector& f) const {
   if (rank() == 0) return;
+  if (by_node_) {
+    by_node_->subtract_load(by_node_->resultants(f), f);
+    return;
+  }
   const Amplitudes rigid = Phi_.transpose() * f;
   f.noalias() -= P_ * rigid;
 }
 
+void Sieve::apply_transposed(Matrix& loads) const {
+  if (rank() == 0) return;
+  if (by_node_) {
+    for (Eigen::Index k = 0; k < loads.cols(); ++k) {
+      by_node_->subtract_load(by_node_->resultants(loads.col(k)), loads.col(k));
+    }
+    return;
+  }
+  const Matrix amplitudes = Phi_.transpose() * loads;
+  loads.noalias() -= P_ * amplitudes;
+}
+
 Eigen::Matrix<double, 6, 1> Sieve::rigid_part(const Vector& d) const {
+  if (by_node_) return to_axes_ * by_node_->momenta(d);
   return to_axes_ * (P_.transpose() * d);
 }
 

@@ -25,7 +25,7 @@ void evaluate_coupling(const body::Body& body, const body::CouplingTerms& terms,
 
 /// All moments of the frame equation: J₀, J₁ from the six numbers z = c_ab·d, and the quadratic
 /// parts.
-/// @param z InertiaInvariants::centrifugal_patterns()ᵀ d; not read if the terms do not need it
+/// @param z InertiaInvariants::pattern_values(d); not read if the terms do not need it
 body::DeformedMoments frame_moments(const body::Body& body, const body::CouplingTerms& terms,
                                     const body::DeformedMoments& quadratic,
                                     const Eigen::Matrix<double, 6, 1>& z,

@@ -19,7 +19,7 @@ body::DeformedMoments inertia(const body::Body& body, const model::BodyState& st
   if (!body.is_flexible() || inertial == body::CouplingTerms::none()) return out;
   const auto& invariants = body.flexible->invariants;
   if (inertial == body::CouplingTerms::first_order()) {
-    out.J += invariants.linear_inertia(invariants.centrifugal_patterns().transpose() * state.d);
+    out.J += invariants.linear_inertia(invariants.pattern_values(state.d));
     return out;
   }
   out.J = invariants.rotary_inertia(state.d);

@@ -36,6 +36,7 @@ BodyResponses::Source::Source(const linalg::Factor* of, const body::NodalMotion*
     hash.add(&number, sizeof number);
   }
   hash.add(static_cast<std::uint64_t>(part.num_interface_rows));
+  hash.add(static_cast<std::uint64_t>(part.coupling.may_use_patterns()));
   rest = hash.value();
 }
 

@@ -19,7 +19,7 @@ struct BodyResponses {
   struct Source {
     const linalg::Factor* factor = nullptr;
     const body::NodalMotion* motion = nullptr;
-    std::array<std::uint64_t, 2> rest{};  ///< hash of N, C and the scheme
+    std::array<std::uint64_t, 2> rest{};  ///< hash of N without patterns, C and the scheme
 
     Source() = default;
     Source(const linalg::Factor* of, const body::NodalMotion* by, const body::FlexiblePart& part,

@@ -61,7 +61,7 @@ void BodyStepOperator::row_values(const model::BodyState& state, Vector& y, Vect
     small_.row_values(state.d_alg, y_alg);
     return;
   }
-  for (Vector* values : {&y, &y_dot, &y_ddot, &y_alg}) values->setZero(N_.rows());
+  for (Vector* values : {&y, &y_dot, &y_ddot, &y_alg}) values->setZero(num_rows());
   for (int row = 0; row < num_interface_rows(); ++row) {
     double sum = 0, sum_dot = 0, sum_ddot = 0, sum_alg = 0;
     for (InterfaceRows::InnerIterator it(N_, row); it; ++it) {
@@ -75,10 +75,10 @@ void BodyStepOperator::row_values(const model::BodyState& state, Vector& y, Vect
     y_ddot[row] = sum_ddot;
     y_alg[row] = sum_alg;
   }
-  if (patterns() != nullptr && state.terms.use_patterns()) {
+  if (has_patterns_ && state.terms.use_patterns()) {
     const Past past = {&state.d, &state.d_dot, &state.d_ddot, &state.d_alg};
     const PatternValues values =
-        nodal_ ? nodal_values(*nodal_, past, pool) : dense_values(*patterns(), past, pool);
+        nodal_ ? nodal_values(*nodal_, past, pool) : dense_values(stored_patterns(), past, pool);
     y.tail<6>() = values.col(0);
     y_dot.tail<6>() = values.col(1);
     y_ddot.tail<6>() = values.col(2);

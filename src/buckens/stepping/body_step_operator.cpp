@@ -26,25 +26,8 @@ linalg::MatrixSum step_matrix(const body::FlexiblePart& part, const Scheme& sche
   return K_hat;
 }
 
-InterfaceRows rows_of(const body::FlexiblePart& part) {
-  InterfaceRows interface = part.rows.topRows(part.num_interface_rows);
-  if (!part.coupling.may_use_patterns()) return interface;
-  const Matrix& patterns = part.invariants.centrifugal_patterns();
-  std::vector<linalg::Triplet> entries;
-  for (int k = 0; k < interface.outerSize(); ++k) {
-    for (InterfaceRows::InnerIterator it(interface, k); it; ++it) {
-      entries.emplace_back(k, static_cast<int>(it.col()), it.value());
-    }
-  }
-  const auto first = static_cast<int>(interface.rows());
-  for (int k = 0; k < static_cast<int>(patterns.cols()); ++k) {
-    for (int i = 0; i < static_cast<int>(patterns.rows()); ++i) {
-      if (patterns(i, k) != 0.0) entries.emplace_back(first + k, i, patterns(i, k));
-    }
-  }
-  InterfaceRows out(first + static_cast<int>(patterns.cols()), part.num_dofs());
-  out.setFromTriplets(entries.begin(), entries.end());
-  return out;
+InterfaceRows interface_rows_of(const body::FlexiblePart& part) {
+  return part.rows.topRows(part.num_interface_rows);
 }
 
 /// Whether K̂ is diagonal and nothing has to be sieved, as for reduced bodies.
@@ -64,9 +47,9 @@ bool have_one_matrix(const Scheme& a, const Scheme& b) {
 }
 
 bool have_same_rigid_modes(const body::FlexiblePart& a, const body::FlexiblePart& b) {
-  const Matrix& patterns = a.invariants.centrifugal_patterns();
-  return a.sieve.Phi().cols() == b.sieve.Phi().cols() && a.sieve.Phi() == b.sieve.Phi() &&
-         a.sieve.P() == b.sieve.P() && patterns == b.invariants.centrifugal_patterns();
+  return a.sieve.rank() == b.sieve.rank() && a.sieve.stored_Phi() == b.sieve.stored_Phi() &&
+         a.sieve.stored_P() == b.sieve.stored_P() &&
+         a.invariants.stored_patterns() == b.invariants.stored_patterns();
 }
 
 }  // namespace
@@ -83,14 +66,15 @@ bool BodyStepOperator::serves(const body::FlexiblePart& part) const {
       part.coupling.may_use_patterns() != part_->coupling.may_use_patterns()) {
     return false;
   }
-  return have_same_rigid_modes(part, *part_) && linalg::have_same_bits(rows_of(part), N_);
+  return have_same_rigid_modes(part, *part_) && linalg::have_same_bits(interface_rows_of(part), N_);
 }
 
 BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme& scheme,
                                    const FactorSource& source)
     : BodyAnswer(scheme, part.is_quasi_static),
       part_(&part),
-      N_(rows_of(part)),
+      N_(interface_rows_of(part)),
+      has_patterns_(part.coupling.may_use_patterns()),
       inertial_(part, scheme) {
   {
     const linalg::MatrixSum K_hat = step_matrix(part, scheme);
@@ -107,19 +91,19 @@ BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme&
   }
   find_nodal(source);
   find_responses(source);
-  compliance_ = N_ * responses_->G;
+  compliance_ = row_values(responses_->G);
   interface_ = compliance_.topLeftCorner(part.num_interface_rows, part.num_interface_rows);
   correction_ = Matrix::Zero(compliance_.rows(), compliance_.cols());
   if (scheme.weight == 1.0) {
-    correction_.leftCols(part.num_interface_rows) = N_ * responses_->D_less_G;
+    correction_.leftCols(part.num_interface_rows) = row_values(responses_->D_less_G);
   }
-  rigid_row_values_ = N_ * part.sieve.Phi();
-  if (inverse_.size() > 0 && part.num_dofs() < N_.rows()) small_ = answers_by_variables();
+  rigid_row_values_ = row_values(part.sieve.Phi());
+  if (inverse_.size() > 0 && part.num_dofs() < num_rows()) small_ = answers_by_variables();
 }
 
 void BodyStepOperator::find_nodal(const FactorSource& source) {
-  if (part_->num_dofs() <= kSmall) return;
-  nodal_ = body::NodalMotion::of(*part_);
+  static_assert(kSmall < body::NodalMotion::kFewestVariables);
+  nodal_ = part_->nodal_motion;
   if (!nodal_) return;
   if (source.twin != nullptr && source.twin->nodal_ && *source.twin->nodal_ == *nodal_) {
     nodal_ = source.twin->nodal_;
@@ -147,11 +131,28 @@ void BodyStepOperator::find_responses(const FactorSource& source) {
   }
 }
 
+Matrix BodyStepOperator::row_values(const Matrix& X) const {
+  if (!has_patterns_) return N_ * X;
+  Matrix out(N_.rows() + kNumPatterns, X.cols());
+  out.topRows(N_.rows()) = N_ * X;
+  for (Eigen::Index k = 0; k < X.cols(); ++k) {
+    out.col(k).tail<kNumPatterns>() = part_->invariants.pattern_values(X.col(k));
+  }
+  return out;
+}
+
+Matrix BodyStepOperator::loads_along_rows() const {
+  Matrix out(part_->num_dofs(), N_.rows() + (has_patterns_ ? kNumPatterns : 0));
+  out.leftCols(N_.rows()) = Matrix(N_.transpose());
+  if (has_patterns_) out.rightCols<kNumPatterns>() = part_->invariants.centrifugal_patterns();
+  return out;
+}
+
 std::shared_ptr<const BodyResponses> BodyStepOperator::make_responses(
     const BodyResponses::Source& source) {
   auto out = std::make_shared<BodyResponses>();
   out->source = source;
-  out->G = N_.transpose();
+  out->G = loads_along_rows();
   solve_columns(out->G);
   if (scheme_.weight != 1.0) return out;
   // The strain answers the corrected position, the inertia does not: FM (37) with x⁺ shifted by
@@ -174,7 +175,7 @@ SmallBodyAnswers BodyStepOperator::answers_by_variables() const {
     if (part_->is_damped()) inertia += scheme_.damping * Matrix(part_->C.whole());
     B = inverse_ * (inertia * inverse_) - inverse_;
   }
-  return {N_, inverse_, std::move(B)};
+  return {InterfaceRows(loads_along_rows().transpose().sparseView()), inverse_, std::move(B)};
 }
 
 SparseMatrix BodyStepOperator::K_hat() const { return step_matrix(*part_, scheme_).whole(); }

@@ -77,16 +77,20 @@ class BodyStepOperator final : public BodyAnswer {
                   TaskPool* pool = nullptr) const override;
   /// N Φ: values of the rigid motions that carry mass, orthonormal.
   const linalg::Matrix& rigid_row_values() const { return rigid_row_values_; }
-  /// Rows of the interface, then the six patterns.
-  const InterfaceRows& N() const { return N_; }
+  /// N X, of the interface, then of the six patterns. @param X n rows
+  linalg::Matrix row_values(const linalg::Matrix& X) const;
+  /// Nᵀ, n rows.
+  linalg::Matrix loads_along_rows() const;
+  /// Those rows of N that belong to the interface; the others are the patterns.
+  const InterfaceRows& interface_rows() const { return N_; }
 
   /// G = Y K̂⁻¹ Nᵀ.
   const linalg::Matrix& responses() const { return responses_->G; }
 
-  /// The vectors c_ab as columns, null if N has no rows of them.
-  const linalg::Matrix* patterns() const {
-    return N_.rows() > num_interface_rows() ? &part_->invariants.centrifugal_patterns() : nullptr;
-  }
+  /// Whether N has rows of the patterns.
+  bool has_patterns() const { return has_patterns_; }
+  /// The vectors c_ab as columns where they are stored: not of nodal().
+  const linalg::Matrix& stored_patterns() const { return part_->invariants.stored_patterns(); }
   Eigen::Index num_dofs() const { return part_->num_dofs(); }
   const body::Sieve& sieve() const { return part_->sieve; }
   /// Rigid motion and patterns node by node, of large solids without constraints; else null.
@@ -126,7 +130,10 @@ class BodyStepOperator final : public BodyAnswer {
   std::shared_ptr<const linalg::Factor> factor_;
   std::string why_solver_;
   linalg::Matrix inverse_;  // Y K̂⁻¹ of small bodies, else empty
+  static constexpr Eigen::Index kNumPatterns = 6;
+
   InterfaceRows N_;
+  bool has_patterns_;
   std::shared_ptr<const body::NodalMotion> nodal_;
   linalg::CommonTable common_;
   std::shared_ptr<const BodyResponses> responses_;

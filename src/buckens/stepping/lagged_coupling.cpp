@@ -32,7 +32,7 @@ LaggedCoupling::LaggedCoupling(const body::Body& body, const BodyStepOperator& o
       common_(op.nodal() != nullptr ? &op.common() : nullptr),
       rows_(op.num_dofs()),
       inverse_diagonal_(op.K_hat_diagonal().cwiseInverse()) {
-  const linalg::Matrix& patterns = body.flexible->invariants.centrifugal_patterns();
+  const linalg::Matrix patterns = body.flexible->invariants.centrifugal_patterns();
   const linalg::Vector lengths = body::coordinate_lengths(body);
   if ((lengths.array() != 1.0).any()) moved_per_load_ = lengths.cwiseProduct(inverse_diagonal_);
   undeformed_ = patterns.transpose() * (inverse_diagonal_.asDiagonal() * patterns);
@@ -56,10 +56,10 @@ int LaggedCoupling::known_instants(const model::BodyState& s, int history) const
   const Eigen::LLT<Eigen::Matrix3d> undeformed(body_->J0);
   if (undeformed.info() != Eigen::Success) return history;
   if (undeformed.solve(s.coupling.moments.J).trace() < kHardlyDeformed) return history;
-  const linalg::Matrix& patterns = body_->flexible->invariants.centrifugal_patterns();
+  const body::InertiaInvariants& invariants = body_->flexible->invariants;
   const body::DeformedMoments all =
-      dynamics::frame_moments(*body_, s.terms, s.coupling.moments, patterns.transpose() * s.d,
-                              patterns.transpose() * s.d_dot);
+      dynamics::frame_moments(*body_, s.terms, s.coupling.moments, invariants.pattern_values(s.d),
+                              invariants.pattern_values(s.d_dot));
   const Eigen::LLT<Eigen::Matrix3d> whole(all.J);
   if (whole.info() != Eigen::Success) return history;
   const double share = whole.solve(s.coupling.moments.J).trace();

@@ -96,10 +96,7 @@ void LargeStep::form_right_side_of_change(const Vector& before, const Vector& af
   });
 }
 
-void LargeStep::sieve_side() {
-  const Amplitudes amplitudes = op_->sieve().Phi().transpose() * side();
-  side().noalias() -= op_->sieve().P() * amplitudes;
-}
+void LargeStep::sieve_side() { op_->sieve().apply_transposed(side()); }
 
 void LargeStep::estimate_solution(const model::BodyState& before, Vector& x) {
   x = combination(estimate_, before, 0, rows_.rows());
@@ -115,7 +112,7 @@ void LargeStep::estimate_solution(const model::BodyState& before, Vector& x) {
     loads_of_N_ = scale.asDiagonal() * scaled.whole() * scale.asDiagonal();
   }
   // Least energy of the error: Gᵀ(b − K̂ (x + G a)) = 0 with K̂ G = Yᵀ Nᵀ.
-  const VectorXd misfit = G.transpose() * free_ - op_->N() * x;
+  const VectorXd misfit = G.transpose() * free_ - op_->row_values(x);
   const VectorXd load = loads_of_N_ * misfit;
   x.noalias() += G * load;
 }
@@ -146,7 +143,7 @@ void LargeStep::add_rigid(Index first, Index size, const Vector& x, PartSums& su
   if (op_->nodal() != nullptr) {
     op_->nodal()->add_moments(first, size, x, sums.nodal_rigid);
   } else {
-    const auto P = op_->sieve().P().middleRows(first, size);
+    const auto P = op_->sieve().stored_P().middleRows(first, size);
     sums.rigid.noalias() += P.transpose() * x.segment(first, size);
   }
 }
@@ -155,14 +152,14 @@ void LargeStep::add_patterns(Index first, Index size, PartSums& sums) {
   if (op_->nodal() != nullptr) {
     op_->nodal()->add_moments(first, size, free_, sums.nodal_patterns);
   } else {
-    const auto patterns = op_->patterns()->middleRows(first, size);
+    const auto patterns = op_->stored_patterns().middleRows(first, size);
     sums.patterns.noalias() += patterns.transpose() * free_.segment(first, size);
   }
 }
 
 void LargeStep::take_solution(const model::BodyState& before, VectorXd& y_free, TaskPool* pool) {
   const Scheme& scheme = op_->scheme();
-  const bool uses_patterns = before.terms.use_patterns() && op_->patterns() != nullptr;
+  const bool uses_patterns = before.terms.use_patterns() && op_->has_patterns();
   const bool adds = op_->inertial().share() != 0.0;
   // Wilson's motion is sieved where the equations hold: at the end of the step the rule of linear
   // acceleration would let a rigid part of the rates, rounding at first, grow by 2 + √3 per step.
@@ -188,8 +185,7 @@ void LargeStep::take_solution(const model::BodyState& before, VectorXd& y_free, 
   if (is_first_) rigid_.setZero(op_->sieve().rank());
   if (is_first_ || !has_both) pattern_values_.setZero();
   const Index interface = op_->num_interface_rows();
-  y_free.resize(op_->N().rows());
-  y_free.setZero();
+  y_free.setZero(op_->num_rows());
   const double scale = is_first_ && at_evaluation ? 1.0 / scheme.weight : 1.0;
   for (PartSums& sums : sums_) {
     if (op_->nodal() != nullptr) {
@@ -201,7 +197,7 @@ void LargeStep::take_solution(const model::BodyState& before, VectorXd& y_free, 
     pattern_values_ += sums.patterns;
   }
   if (uses_patterns) y_free.tail<6>() = pattern_values_;
-  y_free.head(interface).noalias() += op_->N().topRows(interface) * free_;
+  y_free.head(interface).noalias() += op_->interface_rows() * free_;
   const Index used = uses_patterns ? y_free.size() : interface;
   y_free.head(used).noalias() -= op_->rigid_row_values().topRows(used) * rigid_;
 }
@@ -241,7 +237,7 @@ void LargeStep::complete(const model::BodyState& before, const VectorXd& load,
   if (!holds_at_end_) {
     for (Vector* v : {&d_e_, &rate_e_, &acceleration_e_}) v->resize(n);
   }
-  const linalg::Matrix& Phi = op_->sieve().Phi();
+  const linalg::Matrix& Phi = op_->sieve().stored_Phi();
   const body::NodalMotion* nodal = op_->nodal();
   const Eigen::Matrix4d motion =
       nodal != nullptr ? nodal->motion(rigid_) : Eigen::Matrix4d(Eigen::Matrix4d::Zero());

@@ -23,12 +23,12 @@ Terms evaluate(const body::Body& body, const model::BodyState& s, const body::Co
   const body::InertiaInvariants& invariants = body.flexible->invariants;
   const model::Coupling coupling =
       dynamics::evaluate_coupling(body, kept, s.d, s.d_dot, s.d_ddot, s.frame.w, s.w_dot);
-  const auto& patterns = invariants.centrifugal_patterns();
   Terms out;
-  out.load = patterns * dynamics::centrifugal_weights(kept, s.frame.w);
+  out.load = invariants.centrifugal_load(dynamics::centrifugal_weights(kept, s.frame.w));
   if (kept.have_load()) out.load += coupling.load;
-  const body::DeformedMoments moments = dynamics::frame_moments(
-      body, kept, coupling.moments, patterns.transpose() * s.d, patterns.transpose() * s.d_dot);
+  const body::DeformedMoments moments =
+      dynamics::frame_moments(body, kept, coupling.moments, invariants.pattern_values(s.d),
+                              invariants.pattern_values(s.d_dot));
   out.torque =
       dynamics::frame_inertia(body, moments, s.frame.w, s.w_dot, Vector3d::Zero()).head<3>();
   return out;

@@ -71,7 +71,7 @@ void Stepper::add_jump(std::size_t b, const BodyJump& jump, dynamics::BodyMotion
   if (!flexible_[b] || operators_[b]->is_quasi_static()) return;
   add_impulse(b, jump.impulse, s.d_dot);
   add_impulse(b, jump.impulse_time, s.d);
-  const auto& N = operators_[b]->N();
+  const InterfaceRows& N = operators_[b]->interface_rows();
   motion.y.head(jump.impulse.size()) = N.topRows(jump.impulse.size()) * s.d;
   motion.y_dot.head(jump.impulse.size()) = N.topRows(jump.impulse.size()) * s.d_dot;
 }

@@ -82,15 +82,15 @@ class Accelerations {
       bodies_[b].lengths = body::coordinate_lengths(body);
       const auto coupling = dynamics::evaluate_coupling(body, s.terms, s.d, s.d_dot, zero,
                                                         s.frame.w, Vector3d::Zero());
-      const auto& patterns = body.flexible->invariants.centrifugal_patterns();
+      const body::InertiaInvariants& invariants = body.flexible->invariants;
       bodies_[b].moments =
-          dynamics::frame_moments(body, s.terms, coupling.moments, patterns.transpose() * s.d,
-                                  patterns.transpose() * s.d_dot);
+          dynamics::frame_moments(body, s.terms, coupling.moments, invariants.pattern_values(s.d),
+                                  invariants.pattern_values(s.d_dot));
       J.push_back(bodies_[b].moments.J);
       Vector load = -(body.flexible->fe.K * s.d);
       if (body.flexible->is_damped()) load -= body.flexible->C * s.d_dot;
       if (s.terms.have_load()) load += coupling.load;
-      load += patterns * dynamics::centrifugal_weights(s.terms, s.frame.w);
+      load += invariants.centrifugal_load(dynamics::centrifugal_weights(s.terms, s.frame.w));
       bodies_[b].nodal_static = mass_solve(body, load);
       bodies_[b].nodal = bodies_[b].nodal_static;
     }

@@ -133,7 +133,7 @@ void SystemPencil::factorise(double mu) {
       throw NumericalError("body \"" + body.name + "\": " + error.text());
     }
     Matrix load = block.loads;
-    load -= sieve.P() * (sieve.Phi().transpose() * load);
+    sieve.apply_transposed(load);
     block.response = block.factor->solve(load);
     sieve.apply(block.response);
     const int seen = place.rows + place.momenta;
@@ -215,7 +215,7 @@ void SystemPencil::apply(Matrix& F) const {
     if (!block.factor) continue;
     const body::Sieve& sieve = model_.bodies[b].flexible->sieve;
     Matrix nodal = F.middleRows(first_[b] + frame, block.loads.rows());
-    nodal -= sieve.P() * (sieve.Phi().transpose() * nodal);
+    sieve.apply_transposed(nodal);
     nodal = block.factor->solve(nodal);
     sieve.apply(nodal);
     F.middleRows(first_[b] + frame, nodal.rows()) = nodal;

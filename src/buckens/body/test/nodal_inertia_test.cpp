@@ -26,13 +26,13 @@ fem::ShapeIntegrals expanded(const fem::ShapeIntegrals& shape) {
   for (std::size_t k = 0; k < 6; ++k) {
     const auto n = shape.c.rows();
     out.W[k].resize(n, n);
-    for (Eigen::Index column = 0; column < shape.nodal.Ms.cols(); ++column) {
-      for (Eigen::Index row = 0; row < shape.nodal.Ms.rows(); ++row) {
+    for (Eigen::Index column = 0; column < shape.nodal.Ms->cols(); ++column) {
+      for (Eigen::Index row = 0; row < shape.nodal.Ms->rows(); ++row) {
         const auto from = static_cast<std::size_t>(row);
         const auto to = static_cast<std::size_t>(column);
         out.W[k].coeffRef(shape.nodal.dofs[from][static_cast<std::size_t>(kPairs[k][0])],
                           shape.nodal.dofs[to][static_cast<std::size_t>(kPairs[k][1])]) =
-            shape.nodal.Ms.coeff(row, column);
+            shape.nodal.Ms->coeff(row, column);
       }
     }
   }
@@ -82,8 +82,9 @@ fem::ShapeIntegrals string_of_nodes(int count, int offset) {
     const int first = offset + 3 * node;
     out.nodal.dofs.push_back({first, first + 1, first + 2});
   }
-  out.nodal.Ms.resize(count, count);
-  out.nodal.Ms.setFromTriplets(entries.begin(), entries.end());
+  auto Ms = std::make_shared<linalg::SparseMatrix>(count, count);
+  Ms->setFromTriplets(entries.begin(), entries.end());
+  out.nodal.Ms = std::move(Ms);
   return out;
 }
 
@@ -95,7 +96,7 @@ struct Deformation {
 /// M d, loads and moments of a deformation in general position.
 /// @param offset variables before those of the string, which belong to no node
 Deformation evaluate(const fem::ShapeIntegrals& shape, int offset, TaskPool* pool) {
-  const auto n = offset + 3 * shape.nodal.Ms.rows();
+  const auto n = offset + 3 * shape.nodal.Ms->rows();
   Vector d(n), d_dot(n), d_ddot(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto t = static_cast<double>(i - offset);
@@ -131,7 +132,7 @@ TEST(NodalInertia, OverwritesWhateverStoodInALoad) {
   const fem::ShapeIntegrals shape = string_of_nodes(5000, 0);
   const NodalInertia nodal(shape.nodal);
   const linalg::CommonTable common{nodal.matrix(), nullptr, nullptr};
-  const Vector d = Vector::LinSpaced(3 * shape.nodal.Ms.rows(), -0.01, 0.02);
+  const Vector d = Vector::LinSpaced(3 * shape.nodal.Ms->rows(), -0.01, 0.02);
   const auto weights =
       DeformationWeights::of_motion(Vector3d(1, -2, 3), Vector3d(-0.5, 0.7, 11), {});
   Vector added = Vector::Zero(d.size());

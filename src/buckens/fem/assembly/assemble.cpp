@@ -188,13 +188,13 @@ SparseMatrix integrate_inertia(Blocks blocks, const MeshView& mesh, FeModel& fe)
   InertiaSum& sum = inertia.sum;
   if (solids) {
     solids->add_moments(mesh.dofs, shape.com, sum);
-    const SparseMatrix& Ms = solids->scalar_mass();
+    SparseMatrix Ms = solids->scalar_mass();
     if (inertia.nodal.empty()) {
-      inertia.nodal.Ms = Ms;
       inertia.nodal.dofs = translations(mesh.dofs);
     } else {
-      inertia.nodal.Ms += Ms;
+      Ms = *inertia.nodal.Ms + Ms;
     }
+    inertia.nodal.Ms = std::make_shared<const SparseMatrix>(std::move(Ms));
   }
   for (std::size_t k = 0; k < sum.W.size(); ++k) shape.W[k] = taken_matrix(n, sum.W[k]);
   shape.c = std::move(sum.c);

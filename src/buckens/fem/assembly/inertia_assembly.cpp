@@ -28,7 +28,7 @@ AssembledInertia assemble_inertia(const std::vector<std::shared_ptr<const Elemen
   }
   out.sum.nodal = {};
   if (!Ms) return out;
-  out.nodal = {Ms->take(), translations(mesh.dofs)};
+  out.nodal = {std::make_shared<const SparseMatrix>(Ms->take()), translations(mesh.dofs)};
   return out;
 }
 
@@ -59,11 +59,11 @@ SparseMatrix mass_matrix(const ShapeIntegrals& shape, const SparseMatrix& flywhe
 
 SparseMatrix mass_of_nodes(const NodalMass& nodal, int n) {
   const auto visit = [&nodal](auto&& entry) {
-    for (int to = 0; to < nodal.Ms.outerSize(); ++to) {
+    for (int to = 0; to < nodal.Ms->outerSize(); ++to) {
       for (std::size_t a = 0; a < 3; ++a) {
         const int column = nodal.dofs[static_cast<std::size_t>(to)][a];
         if (column < 0) continue;
-        for (SparseMatrix::InnerIterator it(nodal.Ms, to); it; ++it) {
+        for (SparseMatrix::InnerIterator it(*nodal.Ms, to); it; ++it) {
           const int row = nodal.dofs[static_cast<std::size_t>(it.row())][a];
           if (row >= 0) entry(row, column, it.value());
         }

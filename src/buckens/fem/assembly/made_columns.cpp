@@ -32,9 +32,8 @@ SparseMatrix matrix_of(MeshMatrix which, const MeshPart& part) {
   }
   SparseMatrix out;
   if (which == MeshMatrix::scalar_mass) {
-    AssembledInertia inertia = assemble_inertia(part.blocks, mesh, Eigen::Vector3d::Zero());
-    out.swap(inertia.nodal.Ms);
-    return out;
+    const AssembledInertia inertia = assemble_inertia(part.blocks, mesh, Eigen::Vector3d::Zero());
+    return inertia.nodal.empty() ? out : *inertia.nodal.Ms;
   }
   StiffnessMatrices stiffness = assemble_stiffness(part.blocks, mesh);
   out.swap(which == MeshMatrix::stiffness ? stiffness.K : stiffness.K_damping);

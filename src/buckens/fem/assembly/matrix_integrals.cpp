@@ -166,8 +166,9 @@ class IntegralMaker {
       }
     }
     const auto count = static_cast<int>(body_.nodes.size());
-    out_.nodal.Ms.resize(count, count);
-    out_.nodal.Ms.setFromTriplets(entries.begin(), entries.end());
+    auto Ms = std::make_shared<SparseMatrix>(count, count);
+    Ms->setFromTriplets(entries.begin(), entries.end());
+    out_.nodal.Ms = std::move(Ms);
     for (const auto& node : body_.dofs.node_dofs) {
       out_.nodal.dofs.push_back({node[0], node[1], node[2]});
     }

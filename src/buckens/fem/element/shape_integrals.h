@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "buckens/linalg/matrix_types.h"
@@ -11,10 +12,11 @@ namespace buckens::fem {
 /// Inertia of elements whose three displacement components share scalar shape functions
 /// (solids): W_ab = Ms ⊗ E_ab node by node, nine times fewer entries than the six matrices W_ab.
 struct NodalMass {
-  linalg::SparseMatrix Ms;               ///< scalar mass matrix, N×N over all nodes [kg]
+  /// Scalar mass matrix, N×N over all nodes [kg], which several may read; null: none.
+  std::shared_ptr<const linalg::SparseMatrix> Ms;
   std::vector<std::array<int, 3>> dofs;  ///< per node the DOF of its translations
 
-  bool empty() const { return Ms.nonZeros() == 0; }
+  bool empty() const { return !Ms || Ms->nonZeros() == 0; }
 };
 
 /// Inertia integrals of a body over its undeformed shape s0 (from the mass centre, model axes) and
@@ -32,7 +34,8 @@ struct ShapeIntegrals {
   /// Without the part in `nodal`.
   std::array<linalg::SparseMatrix, 6> W;
   NodalMass nodal;
-  /// n×9, column 3a+b (from zero) is c_ab = ∫ s0_a g_b dm, FM (53).
+  /// n×9, column 3a+b (from zero) is c_ab = ∫ s0_a g_b dm, FM (53). Empty of large solids once they
+  /// are bodies: body::InertiaInvariants::first_moments().
   linalg::Matrix c;
 };
 

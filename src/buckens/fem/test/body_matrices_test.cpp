@@ -53,8 +53,8 @@ Matrix W(const ShapeIntegrals& shape, std::size_t k, const DofMap& dofs) {
   if (out.size() == 0) out = Matrix::Zero(dofs.num_dofs, dofs.num_dofs);
   if (shape.nodal.empty()) return out;
   const auto [a, b] = kPairs[k];
-  for (int column = 0; column < shape.nodal.Ms.outerSize(); ++column) {
-    for (SparseMatrix::InnerIterator it(shape.nodal.Ms, column); it; ++it) {
+  for (int column = 0; column < shape.nodal.Ms->outerSize(); ++column) {
+    for (SparseMatrix::InnerIterator it(*shape.nodal.Ms, column); it; ++it) {
       out(shape.nodal.dofs[static_cast<std::size_t>(it.row())][static_cast<std::size_t>(a)],
           shape.nodal.dofs[static_cast<std::size_t>(column)][static_cast<std::size_t>(b)]) +=
           it.value();
@@ -92,8 +92,8 @@ TEST(BodyMatrices, SolidsHaveTheIntegralsOfTheirElements) {
     EXPECT_LT((own.shape.J0 - fe.shape.J0).norm(), 1e-12 * fe.shape.J0.norm());
     EXPECT_LT((own.shape.C0 - fe.shape.C0).norm(), 1e-12 * fe.shape.C0.norm());
     EXPECT_LT((own.shape.c - fe.shape.c).norm(), 1e-12 * fe.shape.c.norm());
-    const SparseMatrix rest = own.shape.nodal.Ms - fe.shape.nodal.Ms;
-    EXPECT_LT(rest.norm(), 1e-13 * fe.shape.nodal.Ms.norm());
+    const SparseMatrix rest = *own.shape.nodal.Ms - *fe.shape.nodal.Ms;
+    EXPECT_LT(rest.norm(), 1e-13 * fe.shape.nodal.Ms->norm());
     expect_consistent(body, own);
   }
 }

@@ -309,7 +309,7 @@ Matrix whole_moment(const FeModel& fe, std::size_t pair) {
   for (std::size_t i = 0; i < fe.nodes.size(); ++i) {
     for (std::size_t j = 0; j < fe.nodes.size(); ++j) {
       out(fe.dofs.node_dofs[i][kPairs[pair][0]], fe.dofs.node_dofs[j][kPairs[pair][1]]) +=
-          fe.shape.nodal.Ms.coeff(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+          fe.shape.nodal.Ms->coeff(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
     }
   }
   return out;

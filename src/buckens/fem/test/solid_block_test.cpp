@@ -112,7 +112,7 @@ TEST_P(Solids, InertiaIntegralsMatchQuadrature) {
   // All integrands are polynomials that both rules integrate exactly: rounding of 10⁴ terms.
   EXPECT_NEAR(fe.shape.mass, mass, 1e-13 * mass);
   EXPECT_LE(first.norm(), 1e-13 * mass);
-  EXPECT_LE((Matrix(fe.shape.nodal.Ms) - Ms).norm(), 1e-13 * Ms.norm());
+  EXPECT_LE((Matrix(*fe.shape.nodal.Ms) - Ms).norm(), 1e-13 * Ms.norm());
   EXPECT_LE((fe.shape.C0 - second).norm(), 1e-13 * second.norm());
   EXPECT_LE((fe.shape.c - c).norm(), 1e-13 * c.norm());
   for (std::size_t k = 0; k < 6; ++k) EXPECT_EQ(fe.shape.W[k].nonZeros(), 0);

@@ -52,8 +52,8 @@ void expect_integrals_of_elements(const Structure& s) {
   const FeModel fe = assemble(s);
   for (const int runs : {1, 2, 3}) {
     const SparseMatrix Ms = made_in_runs(fe, runs);
-    ASSERT_EQ(Ms.nonZeros(), fe.shape.nodal.Ms.nonZeros());
-    ASSERT_EQ((Ms - fe.shape.nodal.Ms).norm(), 0.0) << runs;
+    ASSERT_EQ(Ms.nonZeros(), fe.shape.nodal.Ms->nonZeros());
+    ASSERT_EQ((Ms - *fe.shape.nodal.Ms).norm(), 0.0) << runs;
     const SolidInertia solids(Ms, fe.nodes);
     // Sums of thousands of shares in another order.
     constexpr double kRounding = 1e-12;

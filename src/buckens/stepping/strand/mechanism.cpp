@@ -276,15 +276,15 @@ void StrandMechanism::fill_mesh(std::size_t b, BodyStepOperator& op, double* fix
   set_matrix(Fixed::A, inverse);
   set_matrix(Fixed::B, inverse * (inertia * inverse) - inverse);
   set_matrix(Fixed::Mass, Matrix(part.fe.M.whole()));
-  for (int k = 0; k < part.sieve.Phi().cols(); ++k) {
-    set_vector(Fixed::Phi + k * N, part.sieve.Phi().col(k));
-    set_vector(Fixed::Pi + k * N, part.sieve.P().col(k));
+  for (int k = 0; k < part.sieve.rank(); ++k) {
+    set_vector(Fixed::Phi + k * N, part.sieve.stored_Phi().col(k));
+    set_vector(Fixed::Pi + k * N, part.sieve.stored_P().col(k));
   }
   const linalg::Vector inverse_diagonal = op.K_hat_diagonal().cwiseInverse();
   set_vector(Fixed::inverse, inverse_diagonal);
   set_vector(Fixed::per_load, body::coordinate_lengths(body).cwiseProduct(inverse_diagonal));
-  if (op.patterns() == nullptr) return;
-  const Matrix& patterns = part.invariants.centrifugal_patterns();
+  if (!op.has_patterns()) return;
+  const Matrix& patterns = part.invariants.stored_patterns();
   const Matrix undeformed = patterns.transpose() * (inverse_diagonal.asDiagonal() * patterns);
   entry(fixed, Fixed::per_pattern) = 1.0 / (body.mass * body.length_scale());
   for (int i = 0; i < S::P; ++i) {

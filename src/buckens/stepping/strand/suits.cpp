@@ -67,7 +67,7 @@ bool follows_node(const body::Body& body, const body::Marker& marker, std::size_
 /// Whether what a planar table leaves out is zero.
 bool is_flat(const body::FlexiblePart& part) {
   constexpr std::array<std::size_t, 3> across = {2, 4, 5};  // zz, xz, yz
-  const linalg::Matrix& patterns = part.invariants.centrifugal_patterns();
+  const linalg::Matrix patterns = part.invariants.centrifugal_patterns();
   return std::all_of(across.begin(), across.end(), [&](std::size_t k) {
     return part.fe.shape.W[k].norm() == 0.0 && patterns.col(static_cast<Index>(k)).isZero(0.0);
   });

@@ -93,7 +93,7 @@ TEST_P(SmallAndLarge, SieveEqualsMultiplier) {
 
     // The same step by its increment: K̂ Δ + PΛ = c (F − M ẍ₀ − C ẋ₀ − K d).
     const Matrix K_hat = op.K_hat();
-    const Vector interface = op.N().transpose() * f;
+    const Vector interface = op.loads_along_rows() * f;
     const Vector rest = load + interface - part.fe.M * history.acceleration -
                         part.C * history.mean_velocity - part.fe.K * state.d;
     const Vector slow = state.d + bordered(part, K_hat, scheme.force * rest);
@@ -187,7 +187,7 @@ TEST_P(LargeStepBy, SecondSolveForTheChangeOfALoadGivesTheStepWithTheNewLoad) {
   EXPECT_LE((after.d_ddot - expected.d_ddot).norm(), 1e-11 * expected.d_ddot.norm());
   // The motion without loads along N has the values that its rows say.
   once.complete(before, Vector::Zero(f.size()), e, expected, nullptr);
-  EXPECT_LE((op.N() * expected.d - y_once).norm(), 1e-12 * y_once.norm());
+  EXPECT_LE((op.row_values(expected.d) - y_once).norm(), 1e-12 * y_once.norm());
 }
 
 INSTANTIATE_TEST_SUITE_P(BodyStepOperator, LargeStepBy,
@@ -202,7 +202,7 @@ TEST(BodyStepOperator, CorrectionsMoveStrainButNotInertia) {
   Vector e = some(op.compliance().rows(), 1.0);
   e.tail<6>().setZero();  // corrections act along interface rows only, not along patterns
   const Matrix K_hat = op.K_hat();
-  const Vector eta = bordered(part, K_hat, op.N().transpose() * e);
+  const Vector eta = bordered(part, K_hat, op.loads_along_rows() * e);
   Vector x = Vector::Zero(part.num_dofs());
   op.add_correction(e, 0, x);
   EXPECT_LE(energy_norm(K_hat, x - eta), 1e-12 * energy_norm(K_hat, eta));

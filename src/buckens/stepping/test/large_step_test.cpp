@@ -39,7 +39,7 @@ std::unique_ptr<const body::FlexiblePart> steel_block(const std::array<int, 3>& 
 model::BodyState after_steps(BodyStepOperator& op, model::BodyState state, int count,
                              TaskPool* pool) {
   LargeStep step(op);
-  const Vector nothing = Vector::Zero(op.N().rows());
+  const Vector nothing = Vector::Zero(op.num_rows());
   Vector y_free;
   model::BodyState next;
   for (int k = 0; k < count; ++k) {
@@ -123,7 +123,7 @@ TEST(LargeStep, KnowsValuesOfPatternsOfASolidAfterAnySolve) {
     }
     LargeStep step(op);
     const Vector first = 5e3 * some(0.2), second = 4e3 * some(0.5);
-    const Vector nothing = Vector::Zero(op.N().rows());
+    const Vector nothing = Vector::Zero(op.num_rows());
     Vector y;
     step.form_right_side(before, first, nullptr);
     for (int solve = 0; solve < 2; ++solve) {
@@ -131,7 +131,7 @@ TEST(LargeStep, KnowsValuesOfPatternsOfASolidAfterAnySolve) {
       op.solve_right_side(step.side());
       step.take_solution(before, y, nullptr);
       step.complete(before, nothing, nothing, after, nullptr);
-      const Vector expected = op.N() * after.d;
+      const Vector expected = op.row_values(after.d);
       // Sums of n products each, of which rigid motion is taken out afterwards.
       EXPECT_LE((y - expected).norm(), 1e-11 * expected.norm())
           << static_cast<int>(method) << solve;
@@ -153,7 +153,7 @@ TEST(LargeStep, TellsNumbersThatAreNone) {
   step.form_right_side(before, {}, nullptr);
   op.solve_right_side(step.side());
   step.take_solution(before, y_free, nullptr);
-  const Vector nothing = Vector::Zero(op.N().rows());
+  const Vector nothing = Vector::Zero(op.num_rows());
   step.complete(before, nothing, nothing, after, nullptr);
   EXPECT_FALSE(step.is_finite());
 }
