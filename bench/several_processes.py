@@ -27,7 +27,8 @@ ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_R
 
 
 def memory_now(started):
-    """Memory of the processes that serve, largest so far and now, by rank [bytes]."""
+    """Memory of the processes that serve, by rank: largest so far, now, and now if pages that several of them have, of program and libraries,
+    count in equal shares [bytes]."""
     found = {}
     for entry in pathlib.Path("/proc").iterdir():
         try:
@@ -35,15 +36,15 @@ def memory_now(started):
             if f"BUCKENS_BENCH_RUN={started}".encode() not in environment:
                 continue
             ranks = [int(v.split(b"=")[1]) for v in environment if v.startswith(b"OMPI_COMM_WORLD_RANK=")]
-            status = (entry / "status").read_text()
+            status = (entry / "status").read_text() + (entry / "smaps_rollup").read_text()
         except (OSError, IndexError):
             continue
-        values = {line.split(":")[0]: 1024 * int(line.split()[1]) for line in status.splitlines() if line.startswith(("VmHWM", "VmRSS"))}
-        if len(values) < 2 or "Name:\tbuckens" not in status:
+        values = {line.split(":")[0]: 1024 * int(line.split()[1]) for line in status.splitlines() if line.startswith(("VmHWM", "VmRSS", "Pss:"))}
+        if len(values) < 3 or "Name:\tbuckens" not in status:
             continue
         rank = ranks[0] if ranks else 0
-        before = found.get(rank, (0, 0))
-        found[rank] = (max(before[0], values["VmHWM"]), max(before[1], values["VmRSS"]))
+        of_rank = (values["VmHWM"], values["VmRSS"], values["Pss"])
+        found[rank] = tuple(max(pair) for pair in zip(found.get(rank, (0, 0, 0)), of_rank))
     return found
 
 
@@ -75,11 +76,12 @@ def run(program, side, processes, steps, solver):
             command = ["mpirun", "-n", str(processes), "--bind-to", "none", "--mca", "pml_monitoring_enable", "2",
                        "--mca", "pml_monitoring_enable_output", "3", "--mca", "pml_monitoring_filename", folder + "/sent", *command]
         process = subprocess.Popen(command, env={**ENVIRONMENT, "BUCKENS_BENCH_RUN": folder})
-        memory, while_stepping = {}, {}
+        memory, while_stepping, in_shares = {}, {}, {}
         while process.poll() is None:
             records = number_of_records(out)
-            for rank, (most, now) in memory_now(folder).items():
+            for rank, (most, now, share) in memory_now(folder).items():
                 memory[rank] = max(memory.get(rank, 0), most)
+                in_shares[rank] = max(in_shares.get(rank, 0), share)
                 # Not the end of a run, where its state is saved.
                 if 2 <= records < steps:
                     while_stepping[rank] = max(while_stepping.get(rank, 0), now)
@@ -87,12 +89,12 @@ def run(program, side, processes, steps, solver):
         if process.returncode != 0:
             raise SystemExit(f"{processes} processes: the program ended with {process.returncode}")
         summary = json.loads((out / "summary.json").read_text())
-        return summary, [[of[rank] for rank in sorted(of)] for of in (memory, while_stepping)], traffic(folder)
+        return summary, [[of[rank] for rank in sorted(of)] for of in (memory, while_stepping, in_shares)], traffic(folder)
 
 
 def measure(program, side, processes, steps, solver):
     few = max(2, steps // 4)
-    short, _, sent_before = run(program, side, processes, few, solver) if processes > 1 else ({}, [[], []], (0, 0))
+    short, _, sent_before = run(program, side, processes, few, solver) if processes > 1 else ({}, [[], [], []], (0, 0))
     summary, memory, sent = run(program, side, processes, few + steps, solver)
     per_step = [(a - b) / steps for a, b in zip(sent, sent_before)]
     body = summary["bodies"]["cube"]
@@ -102,6 +104,7 @@ def measure(program, side, processes, steps, solver):
             "solve_seconds": summary["wall_seconds"]["phases"]["large_solves"] / body["solves"],
             "step_seconds": summary["wall_seconds"]["stepping"] / summary["steps"],
             "solves": body["solves"], "steps": summary["steps"], "peak_bytes": memory[0], "stepping_bytes": memory[1],
+            "peak_bytes_in_shares": memory[2],
             "messages_per_step": per_step[0], "bytes_per_step": per_step[1],
             "solves_per_step": (body["solves"] - (short["bodies"]["cube"]["solves"] if short else 0)) / steps if short else
             body["solves"] / summary["steps"],
@@ -130,7 +133,7 @@ def main():
         rows.sort(key=lambda r: (r["side"], r["processes"], r["solver"]))
         arguments.into.write_text(json.dumps(rows, indent=1) + "\n")
         print("| {variables} | {processes} | {solver} | {setup_seconds:.1f} | {solve_seconds:.3f} | {step_seconds:.3f} | ".format(**row)
-              + " | ".join(", ".join(f"{m / 1e9:.2f}" for m in row[key]) for key in ("peak_bytes", "stepping_bytes"))
+              + " | ".join(", ".join(f"{m / 1e9:.2f}" for m in row[key]) for key in ("peak_bytes", "peak_bytes_in_shares", "stepping_bytes"))
               + " | {messages_per_step:.0f} | {0:.2f} |".format(row["bytes_per_step"] / 1e6, **row), flush=True)
 
 

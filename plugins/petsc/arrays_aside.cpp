@@ -2,34 +2,12 @@
 #include "arrays_aside.h"
 
 #include <cerrno>
-#include <cstdlib>
 
-#include <fcntl.h>
-#include <linux/magic.h>
-#include <sys/statfs.h>
 #include <unistd.h>
 
+#include "nameless_file.h"
+
 namespace buckens_petsc {
-
-namespace {
-
-/// A file that vanishes with its descriptor, on a disk: one in memory would help nobody. −1: none.
-int nameless_file() {
-  const char* chosen = std::getenv("TMPDIR");
-  for (const char* folder : {chosen, "/var/tmp", "/tmp"}) {
-    if (folder == nullptr) continue;
-    const int file = ::open(folder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-    if (file < 0) continue;
-    struct statfs system {};
-    const bool is_disk = ::fstatfs(file, &system) == 0 && system.f_type != TMPFS_MAGIC &&
-                         system.f_type != RAMFS_MAGIC;
-    if (is_disk) return file;
-    ::close(file);
-  }
-  return -1;
-}
-
-}  // namespace
 
 ArraysAside::ArraysAside() : file_(nameless_file()) {}
 

@@ -8,9 +8,6 @@
 #include <new>
 #include <string>
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include "process_memory.h"
 #include "reasons.h"
 
@@ -25,10 +22,13 @@ enum Job : int { kBegin = -1, kEnd = -2, kAnalyse = 1, kFactorise = 2, kSolve = 
 constexpr int kNarrow[] = {-8, -9, -14, -15, -17, -20};
 constexpr int kNoMemory[] = {-7, -13, -19, -23};
 constexpr int kNotDefinite[] = {-10, -40};
-// What MUMPS adds to its predictions [%], and how much of them is set aside if the first try fails,
-// and the next ones. Processes get fronts as they have time for them, so that the first may fail on
-// a busy machine only.
+constexpr int kNarrowArray = -9;
+// What MUMPS adds to its predictions [%]; the first try does with less of it. Processes get fronts
+// as they have time for them, so that the largest need is known afterwards only: what lacked is
+// added, some times over, and then MUMPS gets its own prediction and multiples of it.
 constexpr int kRelaxation = 20;
+constexpr double kAddedAtFirst = 0.02;
+constexpr double kTimesLacking[] = {2.0, 8.0};
 constexpr double kMargins[] = {1.0, 1.3, 2.6, 5.2, 10.4};
 // Share of the predicted fronts for which the first try has room on two processes; what has no room
 // there goes elsewhere. On four, half was too little for 292 008 variables.
@@ -49,29 +49,27 @@ constexpr double kMillion = 1e6;
 /// Numbers that MUMPS gives in millions where they are large.
 double number(int value) { return value < 0 ? -kMillion * value : value; }
 
+struct Triplets {
+  double* values;
+  int *rows, *columns;
+};
+/// One after the other.
+Triplets triplets(char* from, std::size_t count) {
+  auto* values = reinterpret_cast<double*>(from);
+  auto* rows = reinterpret_cast<int*>(values + count);
+  return {values, rows, rows + count};
+}
+
 }  // namespace
-
-bool Workspace::set_aside(std::size_t numbers) {
-  if (data_ != nullptr) ::munmap(data_, bytes_);
-  data_ = nullptr;
-  bytes_ = numbers * sizeof(double);
-  if (numbers == 0) return true;
-  void* found = ::mmap(nullptr, bytes_, PROT_READ | PROT_WRITE,
-                       MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (found == MAP_FAILED) return false;
-  data_ = static_cast<double*>(found);
-  return true;
-}
-
-void Workspace::keep(std::size_t numbers) {
-  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-  const std::size_t end = (numbers * sizeof(double) + page - 1) / page * page;
-  if (data_ == nullptr || end >= bytes_) return;
-  (void)::madvise(reinterpret_cast<char*>(data_) + end, bytes_ - end, MADV_DONTNEED);
-}
 
 MumpsFactor::MumpsFactor(MPI_Comm comm) : comm_(comm) {
   prepare_blas();
+  begin(comm);
+}
+
+/// An instance on processes in an order that need not be theirs.
+void MumpsFactor::begin(MPI_Comm comm) {
+  mumps_ = {};
   mumps_.comm_fortran = MPI_Comm_c2f(comm);
   mumps_.par = 1;  // the first process has a part of it, too
   mumps_.sym = 1;  // positive definite
@@ -94,7 +92,10 @@ MumpsFactor::MumpsFactor(MPI_Comm comm) : comm_(comm) {
   control[28] = 1;   // one process analyses
 }
 
-MumpsFactor::~MumpsFactor() { (void)run(kEnd); }
+MumpsFactor::~MumpsFactor() {
+  (void)run(kEnd);
+  if (reordered_ != MPI_COMM_NULL) MPI_Comm_free(&reordered_);
+}
 
 int MumpsFactor::number_of_processes() const {
   int count = 1;
@@ -121,37 +122,90 @@ bool MumpsFactor::run(int job) {
 }
 
 bool MumpsFactor::prepare(const TrianglePart& part, const int* order) try {
-  const int entries = part.count > 0 ? part.starts[part.count] - part.starts[0] : 0;
-  rows_.reserve(static_cast<std::size_t>(entries) +
-                1);  // MUMPS asks for an address of nothing, too
-  columns_.reserve(rows_.capacity());
+  size_ = part.size;
+  entries_ = part.count > 0 ? part.starts[part.count] - part.starts[0] : 0;
+  // MUMPS asks for an address of nothing, too.
+  const auto room = static_cast<std::size_t>(std::max(1L, entries_));
+  if (!pages_.set_aside(room * (sizeof(double) + 2 * sizeof(int)))) return false;
+  const Triplets to = triplets(pages_.data(), room);
+  long at = 0;
   for (int k = 0; k < part.count; ++k) {
-    for (int e = part.starts[k]; e < part.starts[k + 1]; ++e) {
-      rows_.push_back(part.rows[e] + 1);
-      columns_.push_back(part.first + k + 1);
+    for (int e = part.starts[k]; e < part.starts[k + 1]; ++e, ++at) {
+      to.values[at] = part.values[e];
+      to.rows[at] = part.rows[e] + 1;
+      to.columns[at] = part.first + k + 1;
     }
   }
-  if (order != nullptr) {
-    places_.resize(static_cast<std::size_t>(part.size));
-    for (int k = 0; k < part.size; ++k) places_[static_cast<std::size_t>(order[k])] = k + 1;
-  }
-  mumps_.n = part.size;
-  mumps_.nnz_loc = entries;
-  mumps_.irn_loc = rows_.data();
-  mumps_.jcn_loc = columns_.data();
-  // It only reads them.
-  mumps_.a_loc = part.count > 0 ? const_cast<double*>(part.values) + part.starts[0] : nullptr;
-  mumps_.perm_in = places_.data();
+  if (order == nullptr) return true;
+  places_.resize(static_cast<std::size_t>(size_));
+  for (int k = 0; k < size_; ++k) places_[static_cast<std::size_t>(order[k])] = k + 1;
   return true;
 } catch (const std::bad_alloc&) {
   return false;
 }
 
+bool MumpsFactor::analyse_entries() {
+  const Triplets entries =
+      triplets(pages_.data(), static_cast<std::size_t>(std::max(1L, entries_)));
+  mumps_.n = size_;
+  mumps_.nnz_loc = entries_;
+  mumps_.irn_loc = entries.rows;
+  mumps_.jcn_loc = entries.columns;
+  mumps_.a_loc = entries.values;
+  mumps_.perm_in = places_.data();
+  return run(kAnalyse);
+}
+
+/// The place among the processes for which MUMPS predicts least.
+int MumpsFactor::lightest_place() const {
+  const double here = numbers_at_first();
+  std::vector<double> all(static_cast<std::size_t>(number_of_processes()));
+  MPI_Allgather(&here, 1, MPI_DOUBLE, all.data(), 1, MPI_DOUBLE, comm_);
+  return static_cast<int>(std::min_element(all.begin(), all.end()) - all.begin());
+}
+
+/// Puts the first process there for MUMPS, and the one that was there first.
+/// @return whether there was enough memory
+bool MumpsFactor::exchange_places(int place) {
+  int rank = 0;
+  MPI_Comm_rank(comm_, &rank);
+  const bool exchanges = rank == 0 || rank == place;
+  int has_memory = 1;
+  try {
+    if (exchanges) places_.resize(static_cast<std::size_t>(size_));
+  } catch (const std::bad_alloc&) {
+    has_memory = 0;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &has_memory, 1, MPI_INT, MPI_MIN, comm_);
+  if (has_memory == 0) {
+    set_reason("there is too little memory for the order of elimination");
+    return false;
+  }
+  if (rank == 0) MPI_Send(places_.data(), size_, MPI_INT, place, 0, comm_);
+  if (rank == place) MPI_Recv(places_.data(), size_, MPI_INT, 0, 0, comm_, MPI_STATUS_IGNORE);
+  MPI_Comm_split(comm_, 0, exchanges ? place - rank : rank, &reordered_);
+  (void)run(kEnd);
+  begin(reordered_);
+  return true;
+}
+
+/// The first process has everything else of a body, too: it gets the smallest part.
+bool MumpsFactor::analyse() {
+  if (!analyse_entries()) return false;
+  const int place = lightest_place();
+  return place == 0 || (exchange_places(place) && analyse_entries());
+}
+
 bool MumpsFactor::make() {
-  const bool is_made = run(kAnalyse) && factorise() && is_positive_definite() && find_variables();
+  bool is_made = false;
+  {
+    const LettingGo entries(pages_);
+    is_made = analyse() && factorise() && is_positive_definite() && find_variables();
+  }
   mumps_.irn_loc = mumps_.jcn_loc = mumps_.perm_in = nullptr;
   mumps_.a_loc = nullptr;
-  for (std::vector<int>* list : {&rows_, &columns_, &places_}) std::vector<int>().swap(*list);
+  (void)pages_.set_aside(0);
+  std::vector<int>().swap(places_);
   return is_made;
 }
 
@@ -178,18 +232,27 @@ double MumpsFactor::numbers_at_first() const {
   constexpr double kAdded = 1.0 + kRelaxation / 100.0;
   const double all = number(mumps_.info[8 - 1]) / kAdded;
   const double fronts = number(mumps_.info[20 - 1]) / kAdded;
-  return std::ceil(std::min(all, number(mumps_.info[3 - 1]) + share * fronts) + kMillion / 8);
+  const double least = std::min(all, number(mumps_.info[3 - 1]) + share * fronts);
+  return std::ceil((1.0 + kAddedAtFirst) * least + kMillion / 8);
 }
 
 bool MumpsFactor::factorise() {
   give_memory_back();  // of the analysis and of what came before
   const double predicted = number(mumps_.info[8 - 1]);
   double numbers = numbers_at_first();
-  for (const double* margin = kMargins;; ++margin) {
+  const double* lacking = std::begin(kTimesLacking);
+  const double* margin = std::begin(kMargins);
+  for (;;) {
     if (!set_aside(numbers)) return false;
     if (run(kFactorise)) break;
-    if (!is_among(mumps_.infog[0], kNarrow) || margin == std::end(kMargins)) return false;
-    numbers = std::ceil(*margin * predicted) + kMillion;
+    if (!is_among(mumps_.infog[0], kNarrow)) return false;
+    if (mumps_.infog[0] == kNarrowArray && lacking != std::end(kTimesLacking)) {
+      numbers += std::ceil(*lacking++ * number(mumps_.infog[1])) + kMillion / 8;
+    } else if (margin != std::end(kMargins)) {
+      numbers = std::max(numbers, std::ceil(*margin++ * predicted) + kMillion);
+    } else {
+      return false;
+    }
   }
   // Where the factor ends: KEEP8(31). Its solves need hardly more.
   workspace_.keep(static_cast<std::size_t>(mumps_.keep8[31 - 1]));

@@ -7,6 +7,9 @@
 #include <dmumps_c.h>
 #include <mpi.h>
 
+#include "pages_on_disk.h"
+#include "workspace.h"
+
 namespace buckens_petsc {
 
 /// Entries of a triangle of a symmetric matrix on one process: those of some of its columns.
@@ -17,25 +20,6 @@ struct TrianglePart {
   const int* starts = nullptr;  ///< from starts[0], not always 0
   const int* rows = nullptr;
   const double* values = nullptr;
-};
-
-/// Address space whose memory is there when it is used, and can be given back.
-class Workspace {
- public:
-  Workspace() = default;
-  ~Workspace() { set_aside(0); }
-  Workspace(const Workspace&) = delete;
-  Workspace& operator=(const Workspace&) = delete;
-
-  /// @return whether it was possible; what was there before goes
-  bool set_aside(std::size_t numbers);
-  /// Gives back what is behind the first numbers.
-  void keep(std::size_t numbers);
-  double* data() const { return data_; }
-
- private:
-  double* data_ = nullptr;
-  std::size_t bytes_ = 0;
 };
 
 /// Factor of a symmetric positive definite matrix by MUMPS, distributed over processes that call
@@ -50,8 +34,8 @@ class MumpsFactor {
   MumpsFactor(const MumpsFactor&) = delete;
   MumpsFactor& operator=(const MumpsFactor&) = delete;
 
-  /// Alone. @param part its values must live until make() has ended
-  /// @param order of the first process, others null: the variable at each place
+  /// Alone; copies the entries. @param order of the first process, others null: the variable at
+  /// each place
   /// @return whether there was enough memory
   bool prepare(const TrianglePart& part, const int* order);
   /// @return whether it was possible; otherwise take_reason() tells why not, on all processes
@@ -66,7 +50,12 @@ class MumpsFactor {
 
  private:
   int number_of_processes() const;
+  void begin(MPI_Comm comm);
   bool run(int job);
+  bool analyse();
+  bool analyse_entries();
+  int lightest_place() const;
+  bool exchange_places(int place);
   bool factorise();
   bool set_aside(double numbers);
   double numbers_at_first() const;
@@ -75,8 +64,13 @@ class MumpsFactor {
 
   DMUMPS_STRUC_C mumps_{};
   MPI_Comm comm_;
+  MPI_Comm reordered_ = MPI_COMM_NULL;  // the processes in the order in which MUMPS has them
   Workspace workspace_;
-  std::vector<int> rows_, columns_, places_;  // from 1, until the factor is made
+  // Until the factor is made: values, rows and columns, and places of the variables, from 1.
+  PagesOnDisk pages_;
+  int size_ = 0;
+  long entries_ = 0;
+  std::vector<int> places_;
   std::vector<int> variables_;
   std::vector<int> right_, answer_;  // the same from 1, as MUMPS takes and gives them
 };

@@ -95,7 +95,7 @@ class Ranks {
   bool receive_rows(int count, int num_motions, OwnRows& own);
   bool make_together(const Order& order, const BuckensGridMatrix* matrix);
   bool factorise_together(const Order& order, const BuckensGridMatrix* matrix);
-  bool make_with_room(MumpsFactor& factor, OwnRows& own);
+  bool make_with_room(MumpsFactor& factor);
   void find_places(int size, Part& part);
   bool sum_terms(const Order& order, const double* of_terms, OwnRows& own);
   std::vector<const Divided*> terms_of(const Order& order) const;

@@ -63,7 +63,7 @@ const std::vector<int>* Ranks::edges(int count, const int* terms, const int* ver
   return edges_together(order, vertex) ? &shared_->edges : nullptr;
 }
 
-void Ranks::forget_edges() { shared_->edges = {}; }
+void Ranks::forget_edges() { std::vector<int>().swap(shared_->edges); }
 
 bool Ranks::edges_together(const Order& order, const int* vertex) {
   const std::vector<const Divided*> terms = terms_of(order);

@@ -139,9 +139,9 @@ bool Ranks::factorise_together(const Order& order, const BuckensGridMatrix* matr
       is_complete && part->factor->prepare(triangle, matrix != nullptr ? matrix->order : nullptr);
   if (!is_prepared) set_reason("there is too little memory for the rows of the matrix");
   if (has_failed_somewhere(!is_prepared)) return false;
-  own.rows = {};
-  const bool is_made = make_with_room(*part->factor, own);
+  own = {};
   if (matrix != nullptr && matrix->give != nullptr) matrix->give(matrix->source, 0, 0, nullptr);
+  const bool is_made = make_with_room(*part->factor);
   give_memory_back();
   if (has_failed_somewhere(!is_made)) return false;
   find_places(order.size, *part);
@@ -150,14 +150,13 @@ bool Ranks::factorise_together(const Order& order, const BuckensGridMatrix* matr
 }
 
 /// Fronts need most memory of all, and while there are some, nothing needs M and K.
-bool Ranks::make_with_room(MumpsFactor& factor, OwnRows& own) {
+bool Ranks::make_with_room(MumpsFactor& factor) {
   ArraysAside aside;
   for (auto& [number, matrix] : shared_->matrices) {
     aside.put(matrix->rows);
     aside.put(matrix->values);
   }
   const bool is_made = factor.make();
-  own = {};
   give_memory_back();
   bool is_back = true;
   const bool has_room = has_memory_for([&] { is_back = aside.bring_back(); });

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plugins/petsc/arrays_aside.h"
 
-#include <csignal>
 #include <numeric>
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
+
+#include "plugins/petsc/test/file_limit.h"
 
 namespace buckens_petsc {
 namespace {
@@ -17,27 +17,6 @@ std::vector<T> numbers(std::size_t count) {
   std::iota(out.begin(), out.end(), T{1});
   return out;
 }
-
-/// Files may not grow beyond some bytes while this lives; writing beyond them is an error.
-class FileLimit {
- public:
-  explicit FileLimit(rlim_t bytes) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit some{bytes, before_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &some);
-  }
-  ~FileLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  FileLimit(const FileLimit&) = delete;
-  FileLimit& operator=(const FileLimit&) = delete;
-
- private:
-  rlimit before_{};
-  void (*handler_)(int) = nullptr;
-};
 
 constexpr std::size_t kMany = 200'000;
 
