@@ -16,6 +16,7 @@
 #include "buckens/fem/constraint/elimination.h"
 #include "buckens/fem/element/node_label.h"
 #include "buckens/linalg/ranks.h"
+#include "buckens/linalg/shared_matrix.h"
 
 namespace buckens::body {
 
@@ -122,9 +123,9 @@ void condense_nodal_mass(const fem::NodalMass& full, const Condensation& elimina
     }
   }
   const auto num_nodes = static_cast<Eigen::Index>(elimination.nodes().size());
-  auto Ms = std::make_shared<SparseMatrix>(num_nodes, num_nodes);
-  Ms->setFromTriplets(kept.begin(), kept.end());
-  out.nodal.Ms = std::move(Ms);
+  SparseMatrix Ms(num_nodes, num_nodes);
+  Ms.setFromTriplets(kept.begin(), kept.end());
+  out.nodal.Ms = linalg::shared_matrix(std::move(Ms));
   for (const auto& node : elimination.dofs().node_dofs) {
     out.nodal.dofs.push_back({node[0], node[1], node[2]});
   }

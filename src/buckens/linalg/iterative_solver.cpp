@@ -50,7 +50,7 @@ IterativeSolver::IterativeSolver(SparseMatrix A, const Matrix& motions,
     share(alone, motions);
     return;
   }
-  keep(std::move(A), motions);
+  keep(A, motions);
 }
 
 IterativeSolver::IterativeSolver(const MatrixSum& A, const Matrix& motions,
@@ -59,13 +59,14 @@ IterativeSolver::IterativeSolver(const MatrixSum& A, const Matrix& motions,
   if (Ranks::count() > 1) {
     share(A, motions);
   } else {
-    keep(A.whole(), motions);
+    SparseMatrix whole = A.whole();
+    keep(whole, motions);
   }
 }
 
-void IterativeSolver::keep(SparseMatrix A, const Matrix& motions) {
+void IterativeSolver::keep(SparseMatrix& A, const Matrix& motions) {
   require_finite(A);
-  A_ = std::move(A);
+  A_.swap(A);  // Eigen would copy it instead of moving it
   entries_ = static_cast<double>(A_.nonZeros());
   BuckensGridMatrix matrix{};
   matrix.all = {A_.outerIndexPtr(), A_.innerIndexPtr(), A_.valuePtr()};

@@ -53,7 +53,7 @@ class IterativeSolver final : public Factor {
 
  private:
   void make(BuckensGridMatrix matrix, const Matrix& motions);
-  void keep(SparseMatrix A, const Matrix& motions);
+  void keep(SparseMatrix& A, const Matrix& motions);
   void share(const MatrixSum& A, const Matrix& motions);
   void iterate(const double* b, double* x, double energy) const;
 

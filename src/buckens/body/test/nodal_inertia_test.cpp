@@ -10,6 +10,7 @@
 #include "buckens/body/inertia_invariants.h"
 #include "buckens/fem/assembly/assemble.h"
 #include "buckens/fem/mesh/box_mesh.h"
+#include "buckens/linalg/shared_matrix.h"
 
 namespace buckens::body {
 namespace {
@@ -82,9 +83,9 @@ fem::ShapeIntegrals string_of_nodes(int count, int offset) {
     const int first = offset + 3 * node;
     out.nodal.dofs.push_back({first, first + 1, first + 2});
   }
-  auto Ms = std::make_shared<linalg::SparseMatrix>(count, count);
-  Ms->setFromTriplets(entries.begin(), entries.end());
-  out.nodal.Ms = std::move(Ms);
+  linalg::SparseMatrix Ms(count, count);
+  Ms.setFromTriplets(entries.begin(), entries.end());
+  out.nodal.Ms = linalg::shared_matrix(std::move(Ms));
   return out;
 }
 

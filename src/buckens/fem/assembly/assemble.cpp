@@ -16,6 +16,7 @@
 #include "buckens/fem/assembly/stiffness_assembly.h"
 #include "buckens/fem/element/node_label.h"
 #include "buckens/linalg/ranks.h"
+#include "buckens/linalg/shared_matrix.h"
 
 namespace buckens::fem {
 
@@ -194,7 +195,7 @@ SparseMatrix integrate_inertia(Blocks blocks, const MeshView& mesh, FeModel& fe)
     } else {
       Ms = *inertia.nodal.Ms + Ms;
     }
-    inertia.nodal.Ms = std::make_shared<const SparseMatrix>(std::move(Ms));
+    inertia.nodal.Ms = linalg::shared_matrix(std::move(Ms));
   }
   for (std::size_t k = 0; k < sum.W.size(); ++k) shape.W[k] = taken_matrix(n, sum.W[k]);
   shape.c = std::move(sum.c);

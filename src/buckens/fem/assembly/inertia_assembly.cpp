@@ -7,6 +7,7 @@
 #include "buckens/fem/assembly/solid_inertia.h"
 #include "buckens/fem/assembly/stiffness_assembly.h"
 #include "buckens/linalg/counted_entries.h"
+#include "buckens/linalg/shared_matrix.h"
 
 namespace buckens::fem {
 
@@ -28,7 +29,7 @@ AssembledInertia assemble_inertia(const std::vector<std::shared_ptr<const Elemen
   }
   out.sum.nodal = {};
   if (!Ms) return out;
-  out.nodal = {std::make_shared<const SparseMatrix>(Ms->take()), translations(mesh.dofs)};
+  out.nodal = {linalg::shared_matrix(Ms->take()), translations(mesh.dofs)};
   return out;
 }
 

@@ -7,6 +7,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/fem/assembly/body_matrices.h"
+#include "buckens/linalg/shared_matrix.h"
 
 namespace buckens::fem {
 
@@ -166,9 +167,9 @@ class IntegralMaker {
       }
     }
     const auto count = static_cast<int>(body_.nodes.size());
-    auto Ms = std::make_shared<SparseMatrix>(count, count);
-    Ms->setFromTriplets(entries.begin(), entries.end());
-    out_.nodal.Ms = std::move(Ms);
+    SparseMatrix Ms(count, count);
+    Ms.setFromTriplets(entries.begin(), entries.end());
+    out_.nodal.Ms = linalg::shared_matrix(std::move(Ms));
     for (const auto& node : body_.dofs.node_dofs) {
       out_.nodal.dofs.push_back({node[0], node[1], node[2]});
     }
