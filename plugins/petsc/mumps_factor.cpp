@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <new>
 #include <string>
 
+#include "factor_room.h"
 #include "process_memory.h"
 #include "reasons.h"
 
@@ -23,13 +23,8 @@ constexpr int kNarrow[] = {-8, -9, -14, -15, -17, -20};
 constexpr int kNoMemory[] = {-7, -13, -19, -23};
 constexpr int kNotDefinite[] = {-10, -40};
 constexpr int kNarrowArray = -9;
-// What MUMPS adds to its predictions [%]; the first try does with less of it. Processes get fronts
-// as they have time for them, so that the largest need is known afterwards only: what lacked is
-// added, some times over, and then MUMPS gets its own prediction and multiples of it.
-constexpr int kRelaxation = 20;
+constexpr int kRelaxation = 20;  // what MUMPS adds to its predictions [%]
 constexpr double kAddedAtFirst = 0.02;
-constexpr double kTimesLacking[] = {2.0, 8.0};
-constexpr double kMargins[] = {1.0, 1.3, 2.6, 5.2, 10.4};
 // Share of the predicted fronts for which the first try has room on two processes; what has no room
 // there goes elsewhere. On four, half was too little for 292 008 variables.
 constexpr double kShareOfTwo = 0.5;
@@ -156,12 +151,12 @@ bool MumpsFactor::analyse_entries() {
   return run(kAnalyse);
 }
 
-/// The place among the processes for which MUMPS predicts least.
-int MumpsFactor::lightest_place() const {
+/// The place among the processes that the first should have.
+int MumpsFactor::place_of_first() const {
   const double here = numbers_at_first();
   std::vector<double> all(static_cast<std::size_t>(number_of_processes()));
   MPI_Allgather(&here, 1, MPI_DOUBLE, all.data(), 1, MPI_DOUBLE, comm_);
-  return static_cast<int>(std::min_element(all.begin(), all.end()) - all.begin());
+  return lightest_place(all);
 }
 
 /// Puts the first process there for MUMPS, and the one that was there first.
@@ -192,7 +187,7 @@ bool MumpsFactor::exchange_places(int place) {
 /// The first process has everything else of a body, too: it gets the smallest part.
 bool MumpsFactor::analyse() {
   if (!analyse_entries()) return false;
-  const int place = lightest_place();
+  const int place = place_of_first();
   return place == 0 || (exchange_places(place) && analyse_entries());
 }
 
@@ -238,21 +233,14 @@ double MumpsFactor::numbers_at_first() const {
 
 bool MumpsFactor::factorise() {
   give_memory_back();  // of the analysis and of what came before
-  const double predicted = number(mumps_.info[8 - 1]);
-  double numbers = numbers_at_first();
-  const double* lacking = std::begin(kTimesLacking);
-  const double* margin = std::begin(kMargins);
+  FactorRoom room(numbers_at_first(), number(mumps_.info[8 - 1]));
   for (;;) {
-    if (!set_aside(numbers)) return false;
+    if (!set_aside(room.numbers())) return false;
     if (run(kFactorise)) break;
-    if (!is_among(mumps_.infog[0], kNarrow)) return false;
-    if (mumps_.infog[0] == kNarrowArray && lacking != std::end(kTimesLacking)) {
-      numbers += std::ceil(*lacking++ * number(mumps_.infog[1])) + kMillion / 8;
-    } else if (margin != std::end(kMargins)) {
-      numbers = std::max(numbers, std::ceil(*margin++ * predicted) + kMillion);
-    } else {
-      return false;
-    }
+    const int code = mumps_.infog[0];
+    if (!is_among(code, kNarrow)) return false;
+    const double lacking = code == kNarrowArray ? number(mumps_.infog[1]) : 0.0;
+    if (!room.grow(lacking)) return false;
   }
   // Where the factor ends: KEEP8(31). Its solves need hardly more.
   workspace_.keep(static_cast<std::size_t>(mumps_.keep8[31 - 1]));

@@ -54,7 +54,7 @@ class MumpsFactor {
   bool run(int job);
   bool analyse();
   bool analyse_entries();
-  int lightest_place() const;
+  int place_of_first() const;
   bool exchange_places(int place);
   bool factorise();
   bool set_aside(double numbers);

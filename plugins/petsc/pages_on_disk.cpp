@@ -3,7 +3,7 @@
 
 #include <chrono>
 #include <csignal>
-#include <system_error>
+#include <exception>
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -15,6 +15,24 @@ namespace buckens_petsc {
 
 namespace {
 constexpr std::chrono::milliseconds kBetween{50};
+
+/// Threads that begin while this lives get no signals: those are for the thread that waits for
+/// them.
+class NoSignals {
+ public:
+  NoSignals() {
+    sigset_t all;
+    ::sigfillset(&all);
+    ::pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~NoSignals() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  NoSignals(const NoSignals&) = delete;
+  NoSignals& operator=(const NoSignals&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
 }  // namespace
 
 bool PagesOnDisk::map(int flags, int file) {
@@ -44,18 +62,14 @@ void PagesOnDisk::let_go() const {
 }
 
 LettingGo::LettingGo(const PagesOnDisk& pages) {
-  // Signals are for the thread that waits for them.
-  sigset_t all, before;
-  ::sigfillset(&all);
-  ::pthread_sigmask(SIG_SETMASK, &all, &before);
+  const NoSignals none;
   try {
     thread_ = std::thread([this, &pages] {
       std::unique_lock<std::mutex> lock(mutex_);
       while (!ends_.wait_for(lock, kBetween, [this] { return has_ended_; })) pages.let_go();
     });
-  } catch (const std::system_error&) {  // without a thread the pages stay
+  } catch (const std::exception&) {  // without a thread the pages stay
   }
-  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
 LettingGo::~LettingGo() {

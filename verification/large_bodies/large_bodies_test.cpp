@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "buckens/analysis/simulation/work_account.h"
 #include "buckens/base/test/allocation_count.h"
 #include "buckens/body/reduction.h"
 #include "buckens/dynamics/test/mechanism.h"
@@ -154,6 +155,24 @@ TEST(LargeBodies, StepsAllocateNothing) {
       EXPECT_EQ(allocations_in_steps(model, other), 0) << to_string(method);
     }
   }
+}
+
+TEST(LargeBodies, TheEnergyAccountOfADampedSolidAllocatesNothing) {
+  if (!test::kCountsAllocations) GTEST_SKIP() << "malloc belongs to a sanitizer";
+  const model::Model model = chain({{20, 4, 4}}, CouplingLevel::full);
+  ASSERT_NE(model.bodies[0].flexible->nodal_motion, nullptr);
+  const test::Start start = test::consistent_start(model);
+  Stepper stepper(model, settings(1), start.rows_in_use);
+  model::State state = start.state;
+  analysis::WorkAccount account(model, state, false);
+  long allocations = 0;
+  for (int k = 0; k < 30; ++k) {
+    const stepping::StepReport report = stepper.step(state);
+    const long now = test::count_allocations([&] { account.add(state, nullptr, &report); });
+    if (k >= 10) allocations += now;
+  }
+  EXPECT_EQ(allocations, 0);
+  EXPECT_GT(account.work().dissipated, 0.0);
 }
 
 TEST(LargeBodies, StepsOfReducedBodiesAllocateNothing) {

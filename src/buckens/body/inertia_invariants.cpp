@@ -55,12 +55,18 @@ Matrix InertiaInvariants::centrifugal_patterns() const {
   return by_node_ ? by_node_->patterns() : patterns_;
 }
 
-Eigen::Matrix<double, 6, 1> InertiaInvariants::pattern_values(const Vector& d) const {
+Eigen::Matrix<double, 6, 1> InertiaInvariants::pattern_values(
+    const Eigen::Ref<const Vector>& d) const {
   return by_node_ ? NodalMotion::patterns(by_node_->moments(d)) : patterns_.transpose() * d;
 }
 
-Vector InertiaInvariants::centrifugal_load(const Eigen::Matrix<double, 6, 1>& weights) const {
-  return by_node_ ? by_node_->pattern_load(weights) : Vector(patterns_ * weights);
+void InertiaInvariants::add_centrifugal_load(const Eigen::Matrix<double, 6, 1>& weights,
+                                             Vector& load) const {
+  if (by_node_) {
+    by_node_->add_pattern_load(weights, load);
+  } else {
+    load.noalias() += patterns_ * weights;
+  }
 }
 
 Matrix InertiaInvariants::first_moments() const {

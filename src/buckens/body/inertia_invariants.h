@@ -67,9 +67,9 @@ class InertiaInvariants {
   /// The same where they are stored, else empty.
   const linalg::Matrix& stored_patterns() const { return patterns_; }
   /// Products of these columns with d, c_ab·d.
-  Eigen::Matrix<double, 6, 1> pattern_values(const linalg::Vector& d) const;
-  /// The sum of these columns with weights.
-  linalg::Vector centrifugal_load(const Eigen::Matrix<double, 6, 1>& weights) const;
+  Eigen::Matrix<double, 6, 1> pattern_values(const Eigen::Ref<const linalg::Vector>& d) const;
+  /// Adds the sum of these columns with weights. Allocates nothing.
+  void add_centrifugal_load(const Eigen::Matrix<double, 6, 1>& weights, linalg::Vector& load) const;
   /// The columns c_ab of fem::ShapeIntegrals, n×9; copied or formed on each call.
   linalg::Matrix first_moments() const;
   /// (|w|²δ − w w) as (11, 22, 33, 12, 13, 23) [rad²/s²].

@@ -34,7 +34,7 @@ Eigen::Matrix<double, 3, 4> moments_in(const NodeSums& sums) {
 std::shared_ptr<const NodalMotion> NodalMotion::of(const FlexiblePart& part) {
   const NodalInertia nodal(part.fe.shape.nodal);
   const bool may_be = !nodal.empty() && nodal.is_regular() && part.sieve.rank() == 6 &&
-                      part.recovery.is_identity() && part.num_dofs() == 3 * nodal.matrix().nodes &&
+                      part.num_dofs() == 3 * nodal.matrix().nodes &&
                       static_cast<Index>(part.fe.nodes.size()) == nodal.matrix().nodes;
   if (!may_be) return nullptr;
   const std::shared_ptr<const NodalMotion> out(new NodalMotion(part));
@@ -61,8 +61,8 @@ bool NodalMotion::describes(const FlexiblePart& part) const {
     }
     return a.cols() == b.cols();
   };
-  return are_alike(Phi(), part.sieve.Phi()) && are_alike(P(), part.sieve.P()) &&
-         are_alike(first_moments(), part.invariants.first_moments());
+  return are_alike(Phi(), part.sieve.stored_Phi()) && are_alike(P(), part.sieve.stored_P()) &&
+         are_alike(first_moments(), part.fe.shape.c);
 }
 
 bool NodalMotion::operator==(const NodalMotion& other) const {
@@ -95,17 +95,15 @@ NodeSums NodalMotion::moments(const Input& x) const {
   return sums;
 }
 
-Vector NodalMotion::pattern_load(const Vector6& weights) const {
+void NodalMotion::add_pattern_load(const Vector6& weights, InPlace f) const {
   Matrix4d T = Matrix4d::Zero();
   for (std::size_t k = 0; k < kPairs.size(); ++k) {
     const auto [a, b] = kPairs[k];
     T(b, a) -= weights[static_cast<Index>(k)];
     if (a != b) T(a, b) -= weights[static_cast<Index>(k)];
   }
-  Vector load = Vector::Zero(num_dofs());
   kernels_->subtract(first_moments_.data(), 0, static_cast<int>(positions_.cols()), T.data(),
-                     load.data());
-  return load;
+                     f.data());
 }
 
 /// Those of the six motions that `places` make. @param places positions or first moments
@@ -123,8 +121,8 @@ Matrix NodalMotion::Phi() const { return columns(positions_); }
 Matrix NodalMotion::P() const { return columns(first_moments_); }
 
 Matrix NodalMotion::patterns() const {
-  Matrix out(num_dofs(), 6);
-  for (Index k = 0; k < 6; ++k) out.col(k) = pattern_load(Vector6::Unit(k));
+  Matrix out = Matrix::Zero(num_dofs(), 6);
+  for (Index k = 0; k < 6; ++k) add_pattern_load(Vector6::Unit(k), out.col(k));
   return out;
 }
 

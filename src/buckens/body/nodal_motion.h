@@ -25,7 +25,7 @@ class NodalMotion {
   /// Bodies with fewer variables keep matrices: theirs are multiplied as a whole.
   static constexpr Eigen::Index kFewestVariables = 25;
 
-  /// Empty if the body is something else; Φ, P and the patterns that it has are compared.
+  /// Empty if the body is something else; Φ, P and the first moments that it has are compared.
   static std::shared_ptr<const NodalMotion> of(const FlexiblePart& part);
   /// Whether both are bitwise the same.
   bool operator==(const NodalMotion& other) const;
@@ -43,8 +43,8 @@ class NodalMotion {
   void subtract_load(const Vector6& a, InPlace f) const;
   /// What rigid() and patterns() need of all variables.
   linalg::NodeSums moments(const Input& x) const;
-  /// Σ weight × c_ab.
-  linalg::Vector pattern_load(const Vector6& weights) const;
+  /// f += Σ weight × c_ab.
+  void add_pattern_load(const Vector6& weights, InPlace f) const;
   /// The columns themselves: Φ, P and c_ab, n×6 each, and ∫ s0_a g_b dm, n×9.
   linalg::Matrix Phi() const;
   linalg::Matrix P() const;

@@ -53,6 +53,7 @@ class IterativeSolver final : public Factor {
 
  private:
   void make(BuckensGridMatrix matrix, const Matrix& motions);
+  /// Takes A over, which is empty afterwards.
   void keep(SparseMatrix& A, const Matrix& motions);
   void share(const MatrixSum& A, const Matrix& motions);
   void iterate(const double* b, double* x, double energy) const;

@@ -2,7 +2,6 @@
 #include "buckens/stepping/body_step_operator.h"
 
 #include <utility>
-#include <vector>
 
 #include "buckens/body/mesh_solver.h"
 #include "buckens/linalg/same_bits.h"
@@ -131,7 +130,7 @@ void BodyStepOperator::find_responses(const FactorSource& source) {
   }
 }
 
-Matrix BodyStepOperator::row_values(const Matrix& X) const {
+Matrix BodyStepOperator::row_values(const Eigen::Ref<const Matrix>& X) const {
   if (!has_patterns_) return N_ * X;
   Matrix out(N_.rows() + kNumPatterns, X.cols());
   out.topRows(N_.rows()) = N_ * X;
@@ -143,7 +142,7 @@ Matrix BodyStepOperator::row_values(const Matrix& X) const {
 
 Matrix BodyStepOperator::loads_along_rows() const {
   Matrix out(part_->num_dofs(), N_.rows() + (has_patterns_ ? kNumPatterns : 0));
-  out.leftCols(N_.rows()) = Matrix(N_.transpose());
+  out.leftCols(N_.rows()) = N_.transpose();
   if (has_patterns_) out.rightCols<kNumPatterns>() = part_->invariants.centrifugal_patterns();
   return out;
 }

@@ -78,7 +78,7 @@ class BodyStepOperator final : public BodyAnswer {
   /// N Φ: values of the rigid motions that carry mass, orthonormal.
   const linalg::Matrix& rigid_row_values() const { return rigid_row_values_; }
   /// N X, of the interface, then of the six patterns. @param X n rows
-  linalg::Matrix row_values(const linalg::Matrix& X) const;
+  linalg::Matrix row_values(const Eigen::Ref<const linalg::Matrix>& X) const;
   /// Nᵀ, n rows.
   linalg::Matrix loads_along_rows() const;
   /// Those rows of N that belong to the interface; the others are the patterns.

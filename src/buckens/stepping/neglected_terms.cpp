@@ -24,7 +24,8 @@ Terms evaluate(const body::Body& body, const model::BodyState& s, const body::Co
   const model::Coupling coupling =
       dynamics::evaluate_coupling(body, kept, s.d, s.d_dot, s.d_ddot, s.frame.w, s.w_dot);
   Terms out;
-  out.load = invariants.centrifugal_load(dynamics::centrifugal_weights(kept, s.frame.w));
+  out.load.setZero(s.d.size());
+  invariants.add_centrifugal_load(dynamics::centrifugal_weights(kept, s.frame.w), out.load);
   if (kept.have_load()) out.load += coupling.load;
   const body::DeformedMoments moments =
       dynamics::frame_moments(body, kept, coupling.moments, invariants.pattern_values(s.d),

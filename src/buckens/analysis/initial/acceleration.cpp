@@ -90,7 +90,7 @@ class Accelerations {
       Vector load = -(body.flexible->fe.K * s.d);
       if (body.flexible->is_damped()) load -= body.flexible->C * s.d_dot;
       if (s.terms.have_load()) load += coupling.load;
-      load += invariants.centrifugal_load(dynamics::centrifugal_weights(s.terms, s.frame.w));
+      invariants.add_centrifugal_load(dynamics::centrifugal_weights(s.terms, s.frame.w), load);
       bodies_[b].nodal_static = mass_solve(body, load);
       bodies_[b].nodal = bodies_[b].nodal_static;
     }

@@ -41,7 +41,7 @@ Vector deformation(const body::Body& body, const model::BodyState& s,
                    const Eigen::VectorXd& interface) {
   const body::FlexiblePart& part = *body.flexible;
   Vector load = part.rows.topRows(part.num_interface_rows).transpose() * interface;
-  load += part.invariants.centrifugal_load(dynamics::centrifugal_weights(s.terms, s.frame.w));
+  part.invariants.add_centrifugal_load(dynamics::centrifugal_weights(s.terms, s.frame.w), load);
   const model::Coupling coupling =
       dynamics::evaluate_coupling(body, s.terms, s.d, s.d_dot, s.d_ddot, s.frame.w, s.w_dot);
   if (coupling.load.size() > 0) load += coupling.load;

@@ -71,7 +71,7 @@ void DampingWork::find_elastic_load(const model::State& state, const dynamics::F
   mass_->multiply_mass(motion_, image_);
   now_ = -image_;
   if (s.terms.have_load()) now_ += s.coupling.load;
-  now_ += part.invariants.centrifugal_load(dynamics::centrifugal_weights(s.terms, s.frame.w));
+  part.invariants.add_centrifugal_load(dynamics::centrifugal_weights(s.terms, s.frame.w), now_);
   const Vector& f = forces.interface[index_];
   for (int row = 0; row < part.num_interface_rows; ++row) {
     for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(part.rows, row); it; ++it) {

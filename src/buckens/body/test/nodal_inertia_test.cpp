@@ -2,6 +2,7 @@
 #include "buckens/body/nodal_inertia.h"
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>

@@ -2,11 +2,15 @@
 #include "buckens/body/nodal_motion.h"
 
 #include <array>
+#include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "buckens/body/rigid_modes.h"
+#include "buckens/body/rigid_regions.h"
 #include "buckens/fem/assembly/assemble.h"
+#include "buckens/fem/constraint/node_region.h"
 #include "buckens/fem/mesh/box_mesh.h"
 #include "buckens/linalg/inverse_iteration.h"
 
@@ -16,14 +20,18 @@ namespace {
 using linalg::Matrix;
 using linalg::Vector;
 
-fem::FeModel mesh(fem::SolidKind kind, double rho = 7850) {
+fem::Structure structure(fem::SolidKind kind, double rho = 7850) {
   fem::Structure s;
   fem::Box box;
   box.from = {0.1, -0.2, 0.05};
   box.size = {0.5, 0.2, 0.1};
   box.divisions = {4, 3, 2};
   fem::add_box(s, box, fem::Material::isotropic(2.1e11, 0.3, rho), fem::SolidForm::usual(kind));
-  return fem::assemble(s);
+  return s;
+}
+
+fem::FeModel mesh(fem::SolidKind kind, double rho = 7850) {
+  return fem::assemble(structure(kind, rho));
 }
 
 std::unique_ptr<FlexiblePart> block(fem::SolidKind kind, double rho = 7850) {
@@ -88,7 +96,6 @@ TEST(NodalMotion, SievesAndCouplesAsColumnsDo) {
       sieve.apply(x);
       return x;
     });
-    // Loads, which momenta are a thousand times as large as.
     both([&](const Sieve& sieve) {
       Vector f = X.col(1);
       sieve.apply_transposed(f);
@@ -103,8 +110,10 @@ TEST(NodalMotion, SievesAndCouplesAsColumnsDo) {
     const auto weights = InertiaInvariants::centrifugal_weights({3.0, -2.0, 5.0});
     expect_close(part->invariants.pattern_values(X.col(0)),
                  columns.invariants.pattern_values(X.col(0)));
-    expect_close(part->invariants.centrifugal_load(weights),
-                 columns.invariants.centrifugal_load(weights));
+    Vector load = X.col(1), expected = load;
+    part->invariants.add_centrifugal_load(weights, load);
+    columns.invariants.add_centrifugal_load(weights, expected);
+    expect_close(load, expected);
     expect_close(part->invariants.rotary_inertia(1e-3 * X.col(0)),
                  columns.invariants.rotary_inertia(1e-3 * X.col(0)));
   }
@@ -140,6 +149,17 @@ TEST(NodalMotion, TellsBodiesApart) {
   const auto lighter = block(fem::SolidKind::hex8, 2700)->nodal_motion;
   EXPECT_TRUE(*steel == *same);
   EXPECT_FALSE(*steel == *lighter);
+}
+
+TEST(NodalMotion, IsNotForSolidsWithRigidFaces) {
+  const fem::Structure s = structure(fem::SolidKind::hex8);
+  const auto face = fem::face_region(s, *fem::find_face_set(s, "x0"));
+  const auto part = block(fem::SolidKind::hex8);
+  const auto held = with_links("block", *part, {{"x0", face.nodes, face.centre}}).part;
+  EXPECT_EQ(held->nodal_motion, nullptr);
+  EXPECT_EQ(held->sieve.stored_Phi().cols(), 6);
+  EXPECT_EQ(held->fe.shape.c.rows(), held->num_dofs());
+  EXPECT_EQ(held->full_mesh->shape.c.size(), 0);
 }
 
 TEST(NodalMotion, IsForSolidsOnly) {

@@ -187,21 +187,22 @@ SparseMatrix integrate_inertia(Blocks blocks, const MeshView& mesh, FeModel& fe)
   const std::optional<SolidInertia> solids = solids_elsewhere(blocks, mesh);
   AssembledInertia inertia = assemble_inertia(blocks, mesh, shape.com);
   InertiaSum& sum = inertia.sum;
+  SparseMatrix& Ms = inertia.scalar_mass;
   if (solids) {
     solids->add_moments(mesh.dofs, shape.com, sum);
-    SparseMatrix Ms = solids->scalar_mass();
-    if (inertia.nodal.empty()) {
-      inertia.nodal.dofs = translations(mesh.dofs);
+    if (Ms.nonZeros() == 0) {
+      Ms = solids->scalar_mass();
     } else {
-      Ms = *inertia.nodal.Ms + Ms;
+      Ms += solids->scalar_mass();
     }
-    inertia.nodal.Ms = linalg::shared_matrix(std::move(Ms));
   }
   for (std::size_t k = 0; k < sum.W.size(); ++k) shape.W[k] = taken_matrix(n, sum.W[k]);
   shape.c = std::move(sum.c);
   shape.C0 = sum.C0;
   shape.J0 = sum.C0.trace() * Eigen::Matrix3d::Identity() - sum.C0 + sum.J0_flywheel;
-  shape.nodal = std::move(inertia.nodal);
+  if (Ms.nonZeros() > 0) {
+    shape.nodal = {linalg::shared_matrix(std::move(Ms)), translations(mesh.dofs)};
+  }
   return taken_matrix(n, sum.M_flywheel);
 }
 

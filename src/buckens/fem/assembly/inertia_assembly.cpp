@@ -7,11 +7,11 @@
 #include "buckens/fem/assembly/solid_inertia.h"
 #include "buckens/fem/assembly/stiffness_assembly.h"
 #include "buckens/linalg/counted_entries.h"
-#include "buckens/linalg/shared_matrix.h"
 
 namespace buckens::fem {
 
 using linalg::SparseMatrix;
+using linalg::Triplet;
 
 AssembledInertia assemble_inertia(const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
                                   const MeshView& mesh, const Eigen::Vector3d& com) {
@@ -27,9 +27,8 @@ AssembledInertia assemble_inertia(const std::vector<std::shared_ptr<const Elemen
       out.sum.nodal.clear();
     });
   }
-  out.sum.nodal = {};
-  if (!Ms) return out;
-  out.nodal = {linalg::shared_matrix(Ms->take()), translations(mesh.dofs)};
+  std::vector<Triplet>().swap(out.sum.nodal);
+  if (Ms) Ms->take().swap(out.scalar_mass);
   return out;
 }
 
@@ -39,10 +38,10 @@ std::vector<std::array<int, 3>> translations(const DofMap& dofs) {
   return out;
 }
 
-SparseMatrix taken_matrix(int n, std::vector<linalg::Triplet>& listed) {
+SparseMatrix taken_matrix(int n, std::vector<Triplet>& listed) {
   SparseMatrix A(n, n);
   A.setFromTriplets(listed.begin(), listed.end());
-  listed = {};
+  std::vector<Triplet>().swap(listed);
   return A;
 }
 

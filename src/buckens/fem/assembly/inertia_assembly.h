@@ -11,8 +11,8 @@
 namespace buckens::fem {
 
 struct AssembledInertia {
-  InertiaSum sum;   ///< without `nodal`
-  NodalMass nodal;  ///< of what elements have added to it
+  InertiaSum sum;                    ///< without `nodal`
+  linalg::SparseMatrix scalar_mass;  ///< of what elements have added to `nodal`, or empty
 };
 
 /// Sums the inertia of all elements, some thousand at a time.

@@ -11,6 +11,7 @@
 #include "buckens/fem/assembly/stress_rows.h"
 #include "buckens/linalg/counted_entries.h"
 #include "buckens/linalg/divided_matrix.h"
+#include "buckens/linalg/shared_matrix.h"
 
 namespace buckens::fem {
 
@@ -27,13 +28,14 @@ SparseMatrix matrix_of(MeshMatrix which, const MeshPart& part) {
     const int n = part.dofs.num_dofs;
     ShapeIntegrals shape;
     for (std::size_t k = 0; k < 3; ++k) shape.W[k] = taken_matrix(n, inertia.sum.W[k]);
-    shape.nodal = std::move(inertia.nodal);
+    shape.nodal = {linalg::shared_matrix(std::move(inertia.scalar_mass)), translations(part.dofs)};
     return mass_matrix(shape, taken_matrix(n, inertia.sum.M_flywheel), n);
   }
   SparseMatrix out;
   if (which == MeshMatrix::scalar_mass) {
-    const AssembledInertia inertia = assemble_inertia(part.blocks, mesh, Eigen::Vector3d::Zero());
-    return inertia.nodal.empty() ? out : *inertia.nodal.Ms;
+    AssembledInertia inertia = assemble_inertia(part.blocks, mesh, Eigen::Vector3d::Zero());
+    out.swap(inertia.scalar_mass);
+    return out;
   }
   StiffnessMatrices stiffness = assemble_stiffness(part.blocks, mesh);
   out.swap(which == MeshMatrix::stiffness ? stiffness.K : stiffness.K_damping);
