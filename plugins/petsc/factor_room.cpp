@@ -8,6 +8,7 @@
 namespace buckens_petsc {
 
 namespace {
+// What lacked is told when one front found no room; those after it may need more.
 constexpr std::array<double, 2> kTimesLacking = {2.0, 8.0};
 constexpr std::array<double, 5> kMultiples = {1.0, 1.3, 2.6, 5.2, 10.4};
 constexpr double kBeside = 1e6;  // numbers

@@ -14,6 +14,7 @@
 namespace buckens_petsc {
 
 namespace {
+// Short beside a factorisation that needs the memory, and long beside letting pages go.
 constexpr std::chrono::milliseconds kBetween{50};
 
 /// Threads that begin while this lives get no signals: those are for the thread that waits for
