@@ -16,6 +16,7 @@ namespace {
 
 // Up to this size the dense inverse is quicker than a sparse solve and as accurate.
 constexpr Eigen::Index kSmall = SmallBodyAnswers::kMostVariables;
+constexpr Eigen::Index kNumPatterns = 6;
 
 linalg::MatrixSum step_matrix(const body::FlexiblePart& part, const Scheme& scheme) {
   linalg::MatrixSum K_hat;

@@ -130,9 +130,7 @@ class BodyStepOperator final : public BodyAnswer {
   std::shared_ptr<const linalg::Factor> factor_;
   std::string why_solver_;
   linalg::Matrix inverse_;  // Y K̂⁻¹ of small bodies, else empty
-  static constexpr Eigen::Index kNumPatterns = 6;
-
-  InterfaceRows N_;
+  InterfaceRows N_;         // of the interface
   bool has_patterns_;
   std::shared_ptr<const body::NodalMotion> nodal_;
   linalg::CommonTable common_;
