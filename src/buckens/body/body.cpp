@@ -36,11 +36,9 @@ linalg::SymmetricMatrix damping_matrix(const fem::FeModel& fe) {
   linalg::MatrixSum sum;
   if (fe.mass_damping > 0.0) sum.add(fe.mass_damping, fe.M);
   if (fe.K_damping.nonZeros() > 0) sum.add(1.0, fe.K_damping);
-  if (sum.size() > 0 && sum.is_divided()) return sum.divided();
-  linalg::SparseMatrix C(fe.M.rows(), fe.M.cols());
-  if (fe.mass_damping > 0.0) C = fe.mass_damping * fe.M.whole();
-  if (fe.K_damping.nonZeros() > 0) C += fe.K_damping.whole();
-  return C;
+  if (sum.size() == 0) return linalg::SparseMatrix(fe.M.rows(), fe.M.cols());
+  if (sum.is_divided()) return sum.divided();
+  return sum.whole();
 }
 
 }  // namespace

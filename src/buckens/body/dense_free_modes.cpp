@@ -14,7 +14,7 @@
 namespace buckens::body {
 
 using linalg::Matrix;
-using linalg::SparseMatrix;
+using linalg::SymmetricMatrix;
 using linalg::Vector;
 
 namespace {
@@ -63,7 +63,7 @@ void refuse_too_many_modes(Eigen::Index num_dofs, Eigen::Index count) {
                   count, num_dofs, kLargestDense, num_dofs / 4));
 }
 
-Vector variable_scale(const SparseMatrix& M, const SparseMatrix& K) {
+Vector variable_scale(const SymmetricMatrix& M, const SymmetricMatrix& K) {
   const Vector m = M.diagonal();
   const Vector k = K.diagonal();
   const double ratio = m.maxCoeff() / std::max(k.maxCoeff(), 1e-300);
@@ -75,7 +75,7 @@ Vector variable_scale(const SparseMatrix& M, const SparseMatrix& K) {
   return scale;
 }
 
-FreeModes dense_free_modes(const SparseMatrix& M, const SparseMatrix& K, const Matrix& Phi,
+FreeModes dense_free_modes(const SymmetricMatrix& M, const SymmetricMatrix& K, const Matrix& Phi,
                            const Sieve& sieve) {
   const Vector scale = variable_scale(M, K);
   const Matrix Z = scale.asDiagonal() * complement(Phi, sieve, scale);

@@ -11,6 +11,7 @@
 #include "buckens/body/iterated_modes.h"
 #include "buckens/body/shift_estimate.h"
 #include "buckens/linalg/inverse_iteration.h"
+#include "buckens/linalg/matrix_sum.h"
 #include "buckens/linalg/pivoted_qr.h"
 #include "buckens/linalg/pseudo_inverse.h"
 #include "buckens/linalg/sparse_cholesky.h"
@@ -19,7 +20,6 @@
 namespace buckens::body {
 
 using linalg::Matrix;
-using linalg::SparseMatrix;
 using linalg::Vector;
 
 namespace {
@@ -67,10 +67,13 @@ FreeModes solve_fixed_dense(const FlexiblePart& part, const Matrix& columns, Eig
 }
 
 FreeModes iterate_fixed(const FlexiblePart& part, const Matrix& columns, int count) {
-  const SparseMatrix& M = part.fe.M;
+  const linalg::SymmetricMatrix& M = part.fe.M;
   const double bound = lowest_square_estimate(part);
   const double shift = bound > 0.0 ? 0.3 * bound : cautious_shift(M, part.fe.K);
-  const linalg::SparseCholesky factor(SparseMatrix(part.fe.K.whole() + shift * M));
+  linalg::MatrixSum shifted;
+  shifted.add(1.0, part.fe.K);
+  shifted.add(shift, M);
+  const linalg::SparseCholesky factor(shifted.whole());
   const Matrix G = factor.solve(columns);
   linalg::PseudoInverse stiffness;
   stiffness.compute(columns.transpose() * G);

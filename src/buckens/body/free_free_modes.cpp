@@ -27,8 +27,8 @@ double first_shift(const FlexiblePart& part) {
 }
 
 IteratedModes iterate(const FlexiblePart& part, const FreeModesSettings& settings, int count) {
-  const linalg::SparseMatrix& M = part.fe.M;
-  const linalg::SparseMatrix& K = part.fe.K;
+  const linalg::SymmetricMatrix& M = part.fe.M;
+  const linalg::SymmetricMatrix& K = part.fe.K;
   switch (settings.method) {
     case FreeModeMethod::augmented:
       return iterate_modes(M, part.sieve, augmented_operator(K, part.sieve), count,

@@ -10,7 +10,7 @@
 namespace buckens::body {
 
 using linalg::Matrix;
-using linalg::SparseMatrix;
+using linalg::SymmetricMatrix;
 using linalg::Vector;
 
 namespace {
@@ -30,7 +30,8 @@ bool is_dense_better(Eigen::Index num_dofs, Eigen::Index count) {
   return num_dofs <= kDenseLimit || 3 * count > num_dofs;
 }
 
-FreeModes free_modes(const SparseMatrix& M, const SparseMatrix& K, const Matrix& Phi, int count) {
+FreeModes free_modes(const SymmetricMatrix& M, const SymmetricMatrix& K, const Matrix& Phi,
+                     int count) {
   const Sieve sieve(six_columns(Phi), M);
   const Eigen::Index elastic = M.rows() - sieve.rank();
   const Eigen::Index wanted = std::clamp<Eigen::Index>(count, 0, elastic);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/symmetric_matrix.h"
 
 namespace buckens::body {
 
@@ -21,7 +21,7 @@ struct FreeModes {
 /// @param count modes wanted; fewer are returned if the body has fewer
 /// @throws NumericalError if the iteration does not converge or M is not positive definite
 /// @throws ModelError if a third of all modes of more than 4000 DOF is requested
-FreeModes free_modes(const linalg::SparseMatrix& M, const linalg::SparseMatrix& K,
+FreeModes free_modes(const linalg::SymmetricMatrix& M, const linalg::SymmetricMatrix& K,
                      const linalg::Matrix& Phi, int count);
 
 /// Whether the dense method is faster: up to 600 DOF, or if many modes are wanted.

@@ -17,7 +17,7 @@
 namespace buckens::body {
 
 using linalg::Matrix;
-using linalg::SparseMatrix;
+using linalg::SymmetricMatrix;
 using linalg::Vector;
 
 namespace {
@@ -85,7 +85,7 @@ struct SpectraInverse {
 
 struct SpectraMass {
   using Scalar = double;
-  const SparseMatrix* M;
+  const SymmetricMatrix* M;
 
   Eigen::Index rows() const { return M->rows(); }
   Eigen::Index cols() const { return M->cols(); }
@@ -96,17 +96,17 @@ struct SpectraMass {
 
 }  // namespace
 
-double highest_square(const SparseMatrix& M, const SparseMatrix& K) {
+double highest_square(const SymmetricMatrix& M, const SymmetricMatrix& K) {
   const Vector scale = variable_scale(M, K);
   return K.diagonal().cwiseProduct(scale.cwiseAbs2()).maxCoeff();
 }
 
-double cautious_shift(const SparseMatrix& M, const SparseMatrix& K) {
+double cautious_shift(const SymmetricMatrix& M, const SymmetricMatrix& K) {
   return 1e-9 * highest_square(M, K);
 }
 
-IteratedModes iterate_modes(const SparseMatrix& M, const Sieve& sieve, ModeOperator op, int count,
-                            double tolerance) {
+IteratedModes iterate_modes(const SymmetricMatrix& M, const Sieve& sieve, ModeOperator op,
+                            int count, double tolerance) {
   // If a large part of all modes is wanted, the rigid ones of the penalty form would be among them,
   // mixed with vibrations of the same eigenvalue.
   const bool may_meet_rigid_ones = op.penalty > 0.0 && 20 * count > M.rows();
@@ -120,9 +120,9 @@ IteratedModes iterate_modes(const SparseMatrix& M, const Sieve& sieve, ModeOpera
   return out;
 }
 
-IteratedModes iterate_with_shift(const SparseMatrix& M, const SparseMatrix& K, const Sieve& sieve,
-                                 double first_shift, int count, double tolerance,
-                                 const linalg::MakeFactor& make) {
+IteratedModes iterate_with_shift(const SymmetricMatrix& M, const SymmetricMatrix& K,
+                                 const Sieve& sieve, double first_shift, int count,
+                                 double tolerance, const linalg::MakeFactor& make) {
   const double least = kOverRounding * highest_square(M, K);
   double shift = std::max(first_shift, least);
   double drowned = 0.0;  // largest shift that did not work
@@ -161,7 +161,8 @@ IteratedModes iterate_with_shift(const SparseMatrix& M, const SparseMatrix& K, c
   throw NumericalError("free vibration: no shift makes K + μM positive definite; check the masses");
 }
 
-IteratedModes lanczos_modes(const SparseMatrix& M, ModeOperator op, int count, double tolerance) {
+IteratedModes lanczos_modes(const SymmetricMatrix& M, ModeOperator op, int count,
+                            double tolerance) {
   IteratedModes out;
   out.op = std::move(op);
   out.factorisations = 1;

@@ -11,6 +11,8 @@
 #include "buckens/linalg/dense_cholesky.h"
 #include "buckens/linalg/dense_ldlt.h"
 #include "buckens/linalg/factor_threads.h"
+#include "buckens/linalg/matrix_sum.h"
+#include "buckens/linalg/shared_matrix.h"
 #include "buckens/linalg/sparse_lu.h"
 #include "buckens/linalg/tall_products.h"
 
@@ -18,6 +20,7 @@ namespace buckens::body {
 
 using linalg::Matrix;
 using linalg::SparseMatrix;
+using linalg::SymmetricMatrix;
 using linalg::Vector;
 
 namespace {
@@ -56,6 +59,14 @@ SparseMatrix bordered(const SparseMatrix& K, const Matrix& P) {
   return out;
 }
 
+std::shared_ptr<const SparseMatrix> shifted(const SymmetricMatrix& K, double shift,
+                                            const SymmetricMatrix& M) {
+  linalg::MatrixSum sum;
+  sum.add(1.0, K);
+  sum.add(shift, M);
+  return linalg::shared_matrix(sum.whole());
+}
+
 double largest_by_power(const std::function<Vector(const Vector&)>& apply, Eigen::Index size) {
   Vector x = linalg::scattered_block(size, 1, 3);
   double norm = 0.0;
@@ -70,9 +81,9 @@ double largest_by_power(const std::function<Vector(const Vector&)>& apply, Eigen
 
 }  // namespace
 
-ModeOperator sieved_operator(const SparseMatrix& M, const SparseMatrix& K, const Sieve& sieve,
+ModeOperator sieved_operator(const SymmetricMatrix& M, const SymmetricMatrix& K, const Sieve& sieve,
                              double shift, const linalg::MakeFactor& make) {
-  const auto A = std::make_shared<SparseMatrix>(K + shift * M);
+  const std::shared_ptr<const SparseMatrix> A = shifted(K, shift, M);
   const auto factor = make(*A);
   ModeOperator op;
   op.shift = shift;
@@ -103,7 +114,7 @@ ModeOperator sieved_operator(const SparseMatrix& M, const SparseMatrix& K, const
   return op;
 }
 
-ModeOperator augmented_operator(const SparseMatrix& K, const Sieve& sieve) {
+ModeOperator augmented_operator(const SymmetricMatrix& K, const Sieve& sieve) {
   const Eigen::Index n = K.rows();
   const Matrix P = sieve.P();
   const double size = K.diagonal().cwiseAbs().maxCoeff() / P.cwiseAbs().maxCoeff();
@@ -146,8 +157,8 @@ ModeOperator augmented_operator(const SparseMatrix& K, const Sieve& sieve) {
 
 namespace {
 
-ModeOperator full_penalty_operator(const SparseMatrix& K, const Matrix& P, double penalty) {
-  const auto A = std::make_shared<Matrix>(Matrix(K) + penalty * P * P.transpose());
+ModeOperator full_penalty_operator(const SymmetricMatrix& K, const Matrix& P, double penalty) {
+  const auto A = std::make_shared<Matrix>(Matrix(K.whole()) + penalty * P * P.transpose());
   const auto factor = std::make_shared<linalg::DenseCholesky>(*A);
   if (!factor->is_positive_definite()) {
     throw NumericalError("method penalty: K + c PPᵀ is not positive definite; check the mesh");
@@ -162,10 +173,10 @@ ModeOperator full_penalty_operator(const SparseMatrix& K, const Matrix& P, doubl
   return op;
 }
 
-ModeOperator woodbury_penalty_operator(const SparseMatrix& M, const SparseMatrix& K,
+ModeOperator woodbury_penalty_operator(const SymmetricMatrix& M, const SymmetricMatrix& K,
                                        const Sieve& sieve, double penalty, double shift,
                                        const linalg::MakeFactor& make) {
-  const auto A = std::make_shared<SparseMatrix>(K + shift * M);
+  const std::shared_ptr<const SparseMatrix> A = shifted(K, shift, M);
   const auto factor = make(*A);
   const auto P = std::make_shared<Matrix>(sieve.P());
   const auto Z = std::make_shared<Matrix>(factor->solve(*P));
@@ -190,8 +201,9 @@ ModeOperator woodbury_penalty_operator(const SparseMatrix& M, const SparseMatrix
 
 }  // namespace
 
-ModeOperator penalty_operator(const SparseMatrix& M, const SparseMatrix& K, const Sieve& sieve,
-                              double penalty, double shift, const linalg::MakeFactor& make) {
+ModeOperator penalty_operator(const SymmetricMatrix& M, const SymmetricMatrix& K,
+                              const Sieve& sieve, double penalty, double shift,
+                              const linalg::MakeFactor& make) {
   ModeOperator op = K.rows() <= kFullPenalty
                         ? full_penalty_operator(K, sieve.P(), penalty)
                         : woodbury_penalty_operator(M, K, sieve, penalty, shift, make);

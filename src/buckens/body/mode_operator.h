@@ -27,14 +27,14 @@ struct ModeOperator {
 
 /// Y (K + μM)⁻¹Yᵀ, FM (30), (31): one sparse Cholesky factor, or what `make` makes in its place.
 /// @throws NumericalError if μ is lost in the rounding of K
-ModeOperator sieved_operator(const linalg::SparseMatrix& M, const linalg::SparseMatrix& K,
+ModeOperator sieved_operator(const linalg::SymmetricMatrix& M, const linalg::SymmetricMatrix& K,
                              const Sieve& sieve, double shift,
                              const linalg::MakeFactor& make = linalg::make_cholesky);
 
 /// The upper left part of [K −P; −Pᵀ 0]⁻¹, FM (28): a sparse LU factor of an indefinite matrix with
 /// full rows and columns. No shift is needed: the bordered matrix is regular.
 /// @throws ModelError if the factor would not fit into memory
-ModeOperator augmented_operator(const linalg::SparseMatrix& K, const Sieve& sieve);
+ModeOperator augmented_operator(const linalg::SymmetricMatrix& K, const Sieve& sieve);
 
 /// (K + c PPᵀ)⁻¹ with P = MΦ of M-orthonormal rigid motions, FM (29): these become modes with
 /// ω² = c.
@@ -42,7 +42,7 @@ ModeOperator augmented_operator(const linalg::SparseMatrix& K, const Sieve& siev
 /// Up to 1500 variables the full matrix is formed and factorised literally: n²/2 entries
 /// and n³/6 multiplications. Above, the same inverse comes from the factor of K + μM with a
 /// rank-six correction (Woodbury), then with the shift μ.
-ModeOperator penalty_operator(const linalg::SparseMatrix& M, const linalg::SparseMatrix& K,
+ModeOperator penalty_operator(const linalg::SymmetricMatrix& M, const linalg::SymmetricMatrix& K,
                               const Sieve& sieve, double penalty, double shift,
                               const linalg::MakeFactor& make = linalg::make_cholesky);
 

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "buckens/linalg/node_matrix.h"
 #include "buckens/linalg/row_parts.h"
 
 namespace buckens::body {
@@ -10,26 +11,9 @@ namespace buckens::body {
 using Eigen::Matrix3Xd;
 using linalg::Vector;
 
-namespace {
-
-bool is_numbered_by_node(const fem::NodalMass& mass) {
-  if (mass.empty() || !mass.Ms->isCompressed()) return false;
-  for (std::size_t node = 0; node < mass.dofs.size(); ++node) {
-    const int first = 3 * static_cast<int>(node);
-    if (mass.dofs[node] != std::array<int, 3>{first, first + 1, first + 2}) return false;
-  }
-  return true;
-}
-
-}  // namespace
-
-linalg::NodeMatrix node_matrix(const linalg::SparseMatrix& Ms) {
-  return {Ms.valuePtr(), Ms.innerIndexPtr(), Ms.outerIndexPtr(), static_cast<int>(Ms.outerSize())};
-}
-
 NodalInertia::NodalInertia(const fem::NodalMass& mass)
-    : mass_(&mass), is_regular_(is_numbered_by_node(mass)) {
-  if (is_regular_) matrix_ = node_matrix(*mass.Ms);
+    : mass_(&mass), is_regular_(mass.is_numbered_by_node()) {
+  if (is_regular_) matrix_ = linalg::node_matrix(*mass.Ms);
 }
 
 Matrix3Xd NodalInertia::by_node(const Vector& x) const {

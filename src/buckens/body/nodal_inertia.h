@@ -43,7 +43,4 @@ class NodalInertia {
   linalg::NodeMatrix matrix_;  // of a regular one
 };
 
-/// View of a compressed scalar mass matrix.
-linalg::NodeMatrix node_matrix(const linalg::SparseMatrix& Ms);
-
 }  // namespace buckens::body

@@ -3,6 +3,7 @@
 
 #include "buckens/body/nodal_inertia.h"
 #include "buckens/body/second_moments.h"
+#include "buckens/linalg/node_matrix.h"
 #include "buckens/linalg/same_bits.h"
 #include "buckens/spatial/rotation.h"
 
@@ -71,7 +72,7 @@ bool NodalMotion::operator==(const NodalMotion& other) const {
          (Ms_ == other.Ms_ || linalg::have_same_bits(*Ms_, *other.Ms_));
 }
 
-linalg::NodeMatrix NodalMotion::mass() const { return node_matrix(*Ms_); }
+linalg::NodeMatrix NodalMotion::mass() const { return linalg::node_matrix(*Ms_); }
 
 NodalMotion::Vector6 NodalMotion::resultants(const Input& f) const {
   NodeSums sums;

@@ -33,17 +33,20 @@ constexpr int kSmoothing = 2;
 // Where A⁻¹M has many pairs of almost one size, θ grows for long: two sweeps may tell little of it.
 constexpr int kFirstJudged = 2, kLastJudged = 32;
 
+/// M X.
+using MassProduct = std::function<Matrix(const Matrix&)>;
+
 /// The growing basis V with M-orthonormal columns and T = VᵀM A⁻¹M V.
 class Subspace {
  public:
-  Subspace(const SparseMatrix& M, const InverseOperator& inverse, const Matrix& deflated,
+  Subspace(MassProduct mass_times, const InverseOperator& inverse, const Matrix& deflated,
            const InverseIterationSettings& settings)
-      : M_(M),
+      : mass_times_(std::move(mass_times)),
         inverse_(inverse),
         settings_(settings),
         deflated_(deflated),
-        MD_(symmetric_product(M, deflated, settings.pool)),
-        V_(M.rows(), std::min<Eigen::Index>(M.rows(), basis_limit())) {}
+        MD_(mass_times_(deflated)),
+        V_(deflated.rows(), std::min<Eigen::Index>(deflated.rows(), basis_limit())) {}
 
   InversePairs run();
 
@@ -55,7 +58,6 @@ class Subspace {
   void orthonormalise(Matrix W, Matrix MW, double nothing, const Matrix* shares,
                       Matrix* coefficients);
   void remove_known(Matrix& W, const Matrix& MW, const Matrix* shares_of_basis) const;
-  Matrix mass_times(const Matrix& X) const { return symmetric_product(M_, X, settings_.pool); }
   auto basis() const { return V_.leftCols(size_); }
   Eigen::Index wanted() const { return std::min<Eigen::Index>(settings_.count, theta_.size()); }
   bool is_judged() const;
@@ -70,7 +72,7 @@ class Subspace {
                                   settings_.count + 10 * settings_.block);
   }
 
-  const SparseMatrix& M_;
+  const MassProduct mass_times_;
   const InverseOperator& inverse_;
   const InverseIterationSettings settings_;
   const Matrix& deflated_;
@@ -115,7 +117,7 @@ void Subspace::orthonormalise(Matrix W, Matrix MW, double nothing, const Matrix*
   if (coefficients != nullptr) *coefficients = Matrix::Identity(W.cols(), W.cols());
   for (int pass = 0; pass < kMostPasses && W.cols() > 0; ++pass) {
     remove_known(W, MW, pass == 0 ? shares : nullptr);
-    MW = mass_times(W);
+    MW = mass_times_(W);
     const Matrix G = inner_products(W, MW, settings_.pool);
     const SymmetricEigen eigen = symmetric_eigen(0.5 * (G + G.transpose()));
     const double least = pass == 0 ? nothing : 0.1;
@@ -142,19 +144,19 @@ void Subspace::orthonormalise(Matrix W, Matrix MW, double nothing, const Matrix*
 /// @param smoothing products with A⁻¹M: the first brings the block into the range of A⁻¹M, a second
 /// one next to the largest pairs, where the share of the smallest may be rounding
 void Subspace::start(unsigned seed, int smoothing) {
-  const auto columns = std::min<Eigen::Index>(settings_.block, M_.rows());
-  Matrix X = scattered_block(M_.rows(), columns, seed);
+  const auto columns = std::min<Eigen::Index>(settings_.block, V_.rows());
+  Matrix X = scattered_block(V_.rows(), columns, seed);
   for (int k = 0; k < smoothing; ++k) {
-    X = mass_times(X);
+    X = mass_times_(X);
     inverse_(X);
     solves_ += X.cols();
-    const Matrix MX = mass_times(X);
+    const Matrix MX = mass_times_(X);
     for (Eigen::Index j = 0; j < X.cols(); ++j) {
       const double size = std::sqrt(std::max(0.0, X.col(j).dot(MX.col(j))));
       if (size > 0.0) X.col(j) /= size;
     }
   }
-  Matrix MX = mass_times(X);
+  Matrix MX = mass_times_(X);
   orthonormalise(std::move(X), std::move(MX), kNothingNew, nullptr, nullptr);
 }
 
@@ -163,14 +165,14 @@ void Subspace::sweep() {
   const Eigen::Index width = block_.cols();
   size_ += width;
   if (size_ > V_.cols()) {  // the search for missed pairs may go beyond the limit
-    V_.conservativeResize(M_.rows(), size_);
+    V_.conservativeResize(V_.rows(), size_);
   }
   V_.middleCols(before, width) = block_;
   Matrix W = std::move(mass_block_);
   inverse_(W);
   solves_ += width;
   ++sweeps_;
-  Matrix MW = mass_times(W);
+  Matrix MW = mass_times_(W);
   longest_ = std::max(longest_, longest_column(W, MW));
   const Matrix H = inner_products(basis(), MW, settings_.pool);
   const Matrix square = H.bottomRows(width);
@@ -241,7 +243,7 @@ InversePairs Subspace::result(bool is_complete) const {
   while (count > 0 && std::abs(theta_[count - 1]) <= kNothing * std::abs(theta_[0])) --count;
   out.theta = theta_.head(count);
   out.shapes =
-      count > 0 ? combinations(basis(), Z_.leftCols(count), settings_.pool) : Matrix(M_.rows(), 0);
+      count > 0 ? combinations(basis(), Z_.leftCols(count), settings_.pool) : Matrix(V_.rows(), 0);
   out.residual = residual_.head(count).cwiseQuotient(out.theta.cwiseAbs());
   out.sweeps = sweeps_;
   out.solves = solves_;
@@ -315,11 +317,28 @@ Matrix scattered_block(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
   return out;
 }
 
+namespace {
+
+template <class Symmetric>
+InversePairs pairs_with(const Symmetric& M, const InverseOperator& inverse, const Matrix& deflated,
+                        const InverseIterationSettings& settings) {
+  if (settings.count <= 0 || M.rows() == 0) return {Vector(0), Matrix(M.rows(), 0), Vector(0)};
+  const auto mass_times = [&](const Matrix& X) { return symmetric_product(M, X, settings.pool); };
+  return Subspace(mass_times, inverse, deflated, settings).run();
+}
+
+}  // namespace
+
 InversePairs largest_inverse_pairs(const SparseMatrix& M, const InverseOperator& inverse,
                                    const Matrix& deflated,
                                    const InverseIterationSettings& settings) {
-  if (settings.count <= 0 || M.rows() == 0) return {Vector(0), Matrix(M.rows(), 0), Vector(0)};
-  return Subspace(M, inverse, deflated, settings).run();
+  return pairs_with(M, inverse, deflated, settings);
+}
+
+InversePairs largest_inverse_pairs(const SymmetricMatrix& M, const InverseOperator& inverse,
+                                   const Matrix& deflated,
+                                   const InverseIterationSettings& settings) {
+  return pairs_with(M, inverse, deflated, settings);
 }
 
 }  // namespace buckens::linalg

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "buckens/base/task_pool.h"
-#include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/symmetric_matrix.h"
 
 namespace buckens::linalg {
 
@@ -52,6 +52,9 @@ struct InversePairs {
 /// @param deflated M-orthonormal vectors to stay orthogonal to, n×k, k ≥ 0
 /// @return fewer pairs than wanted where there are no more
 InversePairs largest_inverse_pairs(const SparseMatrix& M, const InverseOperator& inverse,
+                                   const Matrix& deflated,
+                                   const InverseIterationSettings& settings);
+InversePairs largest_inverse_pairs(const SymmetricMatrix& M, const InverseOperator& inverse,
                                    const Matrix& deflated,
                                    const InverseIterationSettings& settings);
 

@@ -52,18 +52,42 @@ double inner_product(const MatrixSum& A, const MatrixSum& B) {
   return DividedMatrix::inner_product(terms, a, b);
 }
 
+/// Goes through a column of a term, of one that is given by node without forming it.
+class MatrixSum::ColumnEntries {
+ public:
+  ColumnEntries(const Term& term, Index column) {
+    const SparseMatrix* nodes = term.nodes();
+    if (nodes != nullptr) {
+      stride_ = 3;
+      offset_ = column % 3;
+    }
+    at_ = SparseMatrix::InnerIterator(nodes != nullptr ? *nodes : term.whole(), column / stride_);
+  }
+  explicit operator bool() const { return static_cast<bool>(at_); }
+  ColumnEntries& operator++() {
+    ++at_;
+    return *this;
+  }
+  Index row() const { return stride_ * at_.row() + offset_; }
+  double value() const { return at_.value(); }
+
+ private:
+  SparseMatrix::InnerIterator at_;
+  Index stride_ = 1, offset_ = 0;
+};
+
 template <class Visitor>
 void MatrixSum::visit_column(Index column, Index from, Visitor&& visit) const {
-  std::vector<SparseMatrix::InnerIterator> at;
+  std::vector<ColumnEntries> at;
   at.reserve(terms_.size());
   for (const Term& term : terms_) {
-    at.emplace_back(term.whole(), column);
+    at.emplace_back(term, column);
     while (at.back() && at.back().row() < from) ++at.back();
   }
   for (;;) {
     constexpr Index kEnd = std::numeric_limits<Index>::max();
     Index row = kEnd;
-    for (const auto& it : at) row = it ? std::min(row, Index{it.row()}) : row;
+    for (const auto& it : at) row = it ? std::min(row, it.row()) : row;
     if (row == kEnd) return;
     double value = 0;
     for (std::size_t k = 0; k < at.size(); ++k) {
@@ -106,27 +130,29 @@ Vector MatrixSum::diagonal() const {
 }
 
 const SparseMatrix* MatrixSum::widest() const {
-  const SparseMatrix* most = nullptr;
+  const Term* most = nullptr;
   for (const Term& term : terms_) {
-    if (most == nullptr || term.whole().nonZeros() > most->nonZeros()) most = &term.whole();
+    if (most == nullptr || term.entries() > most->entries()) most = &term;
   }
+  if (most == nullptr) return nullptr;
   for (const Term& term : terms_) {
-    const SparseMatrix& A = term.whole();
-    for (Index k = 0; k < size() && &A != most; ++k) {
-      SparseMatrix::InnerIterator wide(*most, k);
-      for (SparseMatrix::InnerIterator it(A, k); it; ++it) {
+    for (Index k = 0; k < size() && &term != most; ++k) {
+      ColumnEntries wide(*most, k);
+      for (ColumnEntries it(term, k); it; ++it) {
         while (wide && wide.row() < it.row()) ++wide;
         if (!wide || wide.row() != it.row()) return nullptr;
       }
     }
   }
-  return most;
+  return &most->whole();
 }
 
 void MatrixSum::require_finite() const {
   for (const Term& term : terms_) {
     const bool was_asked = term.symmetric != nullptr && term.symmetric->is_divided();
-    if (!was_asked) linalg::require_finite(term.whole());
+    if (was_asked) continue;
+    if (term.nodes() != nullptr && term.nodes()->coeffs().allFinite()) continue;
+    linalg::require_finite(term.whole());
   }
 }
 

@@ -38,6 +38,11 @@ class MatrixSum {
     const SymmetricMatrix* symmetric;  // or null
 
     const SparseMatrix& whole() const { return symmetric ? symmetric->whole() : *always_whole; }
+    /// A of one that is A ⊗ 1, or null.
+    const SparseMatrix* nodes() const { return symmetric ? symmetric->nodes() : nullptr; }
+    Eigen::Index entries() const {
+      return symmetric ? symmetric->nonZeros() : always_whole->nonZeros();
+    }
   };
   const std::vector<Term>& terms() const { return terms_; }
   /// Whether all terms can be divided.
@@ -50,6 +55,8 @@ class MatrixSum {
   SymmetricMatrix divided() const;
 
  private:
+  class ColumnEntries;
+
   /// Calls visit(row, value) for the entries of a column from a row on, rows ascending.
   template <class Visitor>
   void visit_column(Eigen::Index column, Eigen::Index from, Visitor&& visit) const;

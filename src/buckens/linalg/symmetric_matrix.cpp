@@ -2,12 +2,14 @@
 #include "buckens/linalg/symmetric_matrix.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 #include <vector>
 
 #include "buckens/linalg/column_content.h"
 #include "buckens/linalg/divided_matrix.h"
+#include "buckens/linalg/node_matrix.h"
 #include "buckens/linalg/same_bits.h"
 
 namespace buckens::linalg {
@@ -32,11 +34,20 @@ std::array<std::uint64_t, 2> content_of(const SparseMatrix& A) {
 SymmetricMatrix::SymmetricMatrix(std::shared_ptr<const DividedMatrix> rows)
     : here_(rows->size(), rows->size()), divided_(std::move(rows)) {}
 
+SymmetricMatrix SymmetricMatrix::by_node(std::shared_ptr<const SparseMatrix> nodes) {
+  SymmetricMatrix out;
+  out.here_.resize(3 * nodes->rows(), 3 * nodes->cols());
+  out.nodes_ = std::move(nodes);
+  return out;
+}
+
 Eigen::Index SymmetricMatrix::nonZeros() const {
+  if (nodes_) return 3 * nodes_->nonZeros();
   return divided_ ? divided_->entries() : here_.nonZeros();
 }
 
 Vector SymmetricMatrix::diagonal() const {
+  if (nodes_) return of_variables(nodes_->diagonal());
   return divided_ ? divided_->diagonal() : Vector(here_.diagonal());
 }
 
@@ -46,13 +57,21 @@ Vector SymmetricMatrix::near_diagonal(std::span<const int> lengths) const {
   Eigen::Index next = 0;
   for (Eigen::Index column = 0; column < here_.cols(); ++column) {
     for (int k = 0; k < lengths[static_cast<std::size_t>(column)]; ++k) {
-      out[next++] = here_.coeff(column + k, column);
+      const Eigen::Index row = column + k;
+      if (!nodes_) {
+        out[next++] = here_.coeff(row, column);
+      } else {
+        out[next++] = k % 3 == 0 ? nodes_->coeff(row / 3, column / 3) : 0.0;
+      }
     }
   }
   return out;
 }
 
-double SymmetricMatrix::norm() const { return divided_ ? divided_->norm() : here_.norm(); }
+double SymmetricMatrix::norm() const {
+  if (nodes_) return std::sqrt(3.0) * nodes_->norm();
+  return divided_ ? divided_->norm() : here_.norm();
+}
 
 const SparseMatrix& SymmetricMatrix::whole() const {
   if (divided_) {
@@ -60,22 +79,30 @@ const SparseMatrix& SymmetricMatrix::whole() const {
     here_.swap(A);
     divided_.reset();
   }
+  if (!is_formed()) {
+    SparseMatrix A = of_variables(*nodes_);
+    here_.swap(A);
+  }
   return here_;
 }
 
 bool SymmetricMatrix::operator==(const SymmetricMatrix& other) const {
-  if (!divided_ && !other.divided_) return have_same_bits(here_, other.here_);
-  return rows() == other.rows() && nonZeros() == other.nonZeros() &&
-         (divided_ == other.divided_ || content() == other.content());
+  if (nodes_ && other.nodes_)
+    return nodes_ == other.nodes_ || have_same_bits(*nodes_, *other.nodes_);
+  const bool are_whole = !divided_ && !other.divided_ && !nodes_ && !other.nodes_;
+  if (are_whole) return have_same_bits(here_, other.here_);
+  if (rows() != other.rows() || nonZeros() != other.nonZeros()) return false;
+  return (divided_ && divided_ == other.divided_) || content() == other.content();
 }
 
 std::array<std::uint64_t, 2> SymmetricMatrix::content() const {
+  if (nodes_ && !is_formed()) return content_of(of_variables(*nodes_));
   return divided_ ? divided_->content() : content_of(here_);
 }
 
 const DividedMatrix& SymmetricMatrix::divide() const {
   if (!divided_) {
-    divided_ = std::make_shared<const DividedMatrix>(here_);
+    divided_ = std::make_shared<const DividedMatrix>(whole());
     drop();
   }
   return *divided_;
@@ -90,10 +117,11 @@ void SymmetricMatrix::share(const SymmetricMatrix& equal) const {
 void SymmetricMatrix::drop() const {
   SparseMatrix nothing(here_.rows(), here_.cols());
   here_.swap(nothing);
+  nodes_.reset();
 }
 
 void SymmetricMatrix::add_product(const Vector& x, Vector& y) const {
-  if (divided_) {
+  if (divided_ || nodes_) {
     y += *this * x;
   } else {
     y.noalias() += here_ * x;
@@ -101,12 +129,13 @@ void SymmetricMatrix::add_product(const Vector& x, Vector& y) const {
 }
 
 void SymmetricMatrix::multiply(const double* x, double* y) const {
+  if (nodes_) return multiply_by_node(*nodes_, x, y);
   const DividedMatrix::Product product{divided_.get(), x, y};
   DividedMatrix::multiply({&product, 1});
 }
 
 Matrix weighted_product(double weight, const SymmetricMatrix& A, const Matrix& X) {
-  if (A.is_divided()) return weight * Matrix(A * X);
+  if (A.is_divided() || A.nodes() != nullptr) return weight * Matrix(A * X);
   return weight * (A.whole() * X);
 }
 
@@ -116,6 +145,8 @@ void multiply(std::initializer_list<MatrixProduct> products) {
     product.y->resize(product.A->rows());
     if (product.A->is_divided()) {
       elsewhere.push_back({&product.A->divide(), product.x->data(), product.y->data()});
+    } else if (product.A->nodes() != nullptr) {
+      multiply_by_node(*product.A->nodes(), product.x->data(), product.y->data());
     } else {
       product.y->noalias() = product.A->whole() * *product.x;
     }

@@ -19,8 +19,10 @@ class DividedMatrix;
 /// Where several processes share the work it may be divided among those other than the first
 /// (ranks.h): make_large_factor_of() does so with the terms of a sum. That changes where its
 /// numbers are and not what they are, so it is possible with constant objects, too. Products then
-/// go over those processes; whole() brings it back. In a process by itself it is always whole, and
-/// products are those of Eigen.
+/// go over those processes; whole() brings it back.
+///
+/// Mass matrices of solids act alike on the three variables of each node and store one number for
+/// the three (by_node()). Others are whole in a process by itself, and products are those of Eigen.
 class SymmetricMatrix {
  public:
   SymmetricMatrix() = default;
@@ -30,12 +32,16 @@ class SymmetricMatrix {
   // NOLINTEND(google-explicit-constructor)
   /// One that is divided from the beginning.
   explicit SymmetricMatrix(std::shared_ptr<const DividedMatrix> rows);
+  /// A ⊗ 1: node j has the variables 3j, 3j + 1 and 3j + 2. Reads `nodes`, as others may.
+  /// @param nodes A, compressed
+  static SymmetricMatrix by_node(std::shared_ptr<const SparseMatrix> nodes);
   SymmetricMatrix(const SymmetricMatrix&) = default;
   SymmetricMatrix& operator=(const SymmetricMatrix&) = default;
   // Eigen's own moves copy.
   SymmetricMatrix(SymmetricMatrix&& from) noexcept { *this = std::move(from); }
   SymmetricMatrix& operator=(SymmetricMatrix&& from) noexcept {
     here_.swap(from.here_);
+    nodes_.swap(from.nodes_);
     divided_.swap(from.divided_);
     return *this;
   }
@@ -53,14 +59,18 @@ class SymmetricMatrix {
 
   /// In this process, from now on. The reference ends with the next divide().
   const SparseMatrix& whole() const;
+  /// A of A ⊗ 1, or null: products need nothing else, and entries follow from it.
+  const SparseMatrix* nodes() const { return nodes_.get(); }
+  /// Whether the entries themselves are in this process.
+  bool is_formed() const { return !is_divided() && (nodes_ == nullptr || here_.nonZeros() > 0); }
   // NOLINTNEXTLINE(google-explicit-constructor)
   operator const SparseMatrix&() const { return whole(); }
 
-  /// A X, column by column where A is divided.
+  /// A X, column by column where A is divided or given by node.
   template <class Derived>
   auto operator*(const Eigen::MatrixBase<Derived>& X) const {
     Eigen::Matrix<double, Eigen::Dynamic, Derived::ColsAtCompileTime> out(rows(), X.cols());
-    if (is_divided()) {
+    if (is_divided() || nodes_ != nullptr) {
       const Eigen::Matrix<double, Eigen::Dynamic, Derived::ColsAtCompileTime> columns = X;
       for (Eigen::Index k = 0; k < out.cols(); ++k) {
         multiply(columns.data() + k * columns.rows(), out.data() + k * out.rows());
@@ -90,7 +100,8 @@ class SymmetricMatrix {
   void multiply(const double* x, double* y) const;
   void drop() const;
 
-  mutable SparseMatrix here_;  // without entries where it is divided
+  mutable SparseMatrix here_;  // without entries where it is divided, or given by node and not used
+  mutable std::shared_ptr<const SparseMatrix> nodes_;  // of one that is not divided, or null
   mutable std::shared_ptr<const DividedMatrix> divided_;
 };
 

@@ -7,6 +7,7 @@
 
 #include <cblas.h>
 
+#include "buckens/linalg/node_matrix.h"
 #include "buckens/linalg/row_parts.h"
 #include "buckens/linalg/single_thread.h"
 
@@ -105,6 +106,23 @@ Matrix symmetric_product(const SparseMatrix& A, const Eigen::Ref<const Matrix>& 
       }
     });
   }
+  return out;
+}
+
+Matrix symmetric_product(const SymmetricMatrix& A, const Eigen::Ref<const Matrix>& X,
+                         TaskPool* pool) {
+  if (A.nodes() == nullptr) return symmetric_product(A.whole(), X, pool);
+  Matrix out(X.rows(), X.cols());
+  const NodeMatrix nodes = node_matrix(*A.nodes());
+  const NodeKernels& kernels = node_kernels();
+  const RowParts rows(X.rows(), 3);
+  // All columns meet a piece of the matrix while the cache holds it.
+  rows.for_pieces(pool, [&](int /*part*/, Eigen::Index first, Eigen::Index size) {
+    for (Eigen::Index k = 0; k < X.cols(); ++k) {
+      kernels.multiply(nodes, static_cast<int>(first / 3), static_cast<int>(size / 3),
+                       X.col(k).data(), out.col(k).data());
+    }
+  });
   return out;
 }
 

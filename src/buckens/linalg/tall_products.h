@@ -2,7 +2,7 @@
 #pragma once
 
 #include "buckens/base/task_pool.h"
-#include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/symmetric_matrix.h"
 
 namespace buckens::linalg {
 
@@ -28,6 +28,9 @@ Matrix combinations(const Eigen::Ref<const Matrix>& A, const Eigen::Ref<const Ma
 /// A X, reading the entries of A once for eight columns.
 /// @param A symmetric, both triangles stored
 Matrix symmetric_product(const SparseMatrix& A, const Eigen::Ref<const Matrix>& X,
+                         TaskPool* pool = nullptr);
+/// The same of a matrix that may be given by node, without forming it.
+Matrix symmetric_product(const SymmetricMatrix& A, const Eigen::Ref<const Matrix>& X,
                          TaskPool* pool = nullptr);
 
 }  // namespace buckens::linalg

@@ -56,7 +56,10 @@ std::optional<double> stiffness_damping(const body::FlexiblePart& part) {
     return divided_stiffness_damping(part);
   }
   const SparseMatrix& K = part.fe.K;
-  const SparseMatrix elastic = part.C.whole() - part.fe.mass_damping * part.fe.M.whole();
+  linalg::MatrixSum difference;
+  difference.add(1.0, part.C);
+  difference.add(-part.fe.mass_damping, part.fe.M);
+  const SparseMatrix elastic = difference.whole();
   const double size = K.squaredNorm();
   if (!(size > 0.0)) return std::nullopt;
   double beta = 0;

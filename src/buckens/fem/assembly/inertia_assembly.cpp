@@ -45,10 +45,26 @@ SparseMatrix taken_matrix(int n, std::vector<Triplet>& listed) {
   return A;
 }
 
-SparseMatrix mass_matrix(const ShapeIntegrals& shape, const SparseMatrix& flywheel, int n) {
-  const bool is_scalar = flywheel.nonZeros() == 0 && shape.W[0].nonZeros() == 0 &&
-                         shape.W[1].nonZeros() == 0 && shape.W[2].nonZeros() == 0;
-  if (is_scalar && !shape.nodal.empty()) return mass_of_nodes(shape.nodal, n);
+namespace {
+
+bool is_scalar(const ShapeIntegrals& shape, const SparseMatrix& flywheel) {
+  return flywheel.nonZeros() == 0 && shape.W[0].nonZeros() == 0 && shape.W[1].nonZeros() == 0 &&
+         shape.W[2].nonZeros() == 0 && !shape.nodal.empty();
+}
+
+}  // namespace
+
+linalg::SymmetricMatrix mass_matrix(const ShapeIntegrals& shape, const SparseMatrix& flywheel,
+                                    int n) {
+  const NodalMass& nodal = shape.nodal;
+  if (is_scalar(shape, flywheel) && nodal.is_numbered_by_node() && n == 3 * nodal.Ms->rows()) {
+    return linalg::SymmetricMatrix::by_node(nodal.Ms);
+  }
+  return mass_entries(shape, flywheel, n);
+}
+
+SparseMatrix mass_entries(const ShapeIntegrals& shape, const SparseMatrix& flywheel, int n) {
+  if (is_scalar(shape, flywheel)) return mass_of_nodes(shape.nodal, n);
   SparseMatrix M = shape.W[0] + shape.W[1];
   M += shape.W[2];
   M += flywheel;

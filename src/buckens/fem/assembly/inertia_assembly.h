@@ -26,9 +26,13 @@ std::vector<std::array<int, 3>> translations(const DofMap& dofs);
 /// The n×n sum of what elements have listed, in its order. Empties the list.
 linalg::SparseMatrix taken_matrix(int n, std::vector<linalg::Triplet>& listed);
 
-/// M, n×n: W_11 + W_22 + W_33 with the scalar mass matrix, and what is not in them.
-linalg::SparseMatrix mass_matrix(const ShapeIntegrals& shape, const linalg::SparseMatrix& flywheel,
-                                 int n);
+/// M, n×n: W_11 + W_22 + W_33 with the scalar mass matrix, and what is not in them. Of solids alone
+/// it reads the scalar mass matrix, where variables are numbered by node.
+linalg::SymmetricMatrix mass_matrix(const ShapeIntegrals& shape,
+                                    const linalg::SparseMatrix& flywheel, int n);
+/// The same with all entries.
+linalg::SparseMatrix mass_entries(const ShapeIntegrals& shape, const linalg::SparseMatrix& flywheel,
+                                  int n);
 
 /// Ms ⊗ 1 over the variables, n×n.
 linalg::SparseMatrix mass_of_nodes(const NodalMass& nodal, int n);

@@ -17,6 +17,8 @@ struct NodalMass {
   std::vector<std::array<int, 3>> dofs;  ///< per node the DOF of its translations
 
   bool empty() const { return !Ms || Ms->nonZeros() == 0; }
+  /// Whether node j has the variables 3j, 3j + 1 and 3j + 2.
+  bool is_numbered_by_node() const;
 };
 
 /// Inertia integrals of a body over its undeformed shape s0 (from the mass centre, model axes) and
