@@ -15,7 +15,9 @@ set(instrumented
     linalg/panel_solve.cpp
     linalg/solve_exchange.cpp
     linalg/sparse_cholesky.cpp
-    linalg/test/solve_exchange_test.cpp)
+    linalg/tree_tasks.cpp
+    linalg/test/solve_exchange_test.cpp
+    linalg/test/tree_tasks_test.cpp)
 # As in src/CMakeLists.txt, whose settings hold there only.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   list(APPEND instrumented linalg/panel_kernels_avx2.cpp linalg/panel_kernels_avx512.cpp)
@@ -37,7 +39,7 @@ target_compile_options(race_test PRIVATE -O1 -g1 -fsanitize=thread)
 target_link_options(race_test PRIVATE -fsanitize=thread -Wl,--allow-multiple-definition)
 set_target_properties(race_test PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/test")
 # The other tests of exchanges solve too much for a sanitizer.
-set(race_cases "TaskPool.*:TwoThreads.*:SolveExchange.OneParticipant*")
+set(race_cases "TaskPool.*:TreeTasks.*:TwoThreads.*:SolveExchange.OneParticipant*")
 add_test(NAME race_test COMMAND race_test --gtest_brief=1 "--gtest_filter=${race_cases}")
 set(suppressions "${PROJECT_SOURCE_DIR}/tests/races/thread_sanitizer.supp")
 set_tests_properties(

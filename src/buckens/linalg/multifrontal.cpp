@@ -10,7 +10,8 @@
 #include "buckens/linalg/cholmod_factor.h"
 #include "buckens/linalg/front.h"
 #include "buckens/linalg/panel_kernels.h"
-#include "buckens/linalg/streaming_memory.h"
+#include "buckens/linalg/rooms.h"
+#include "buckens/linalg/tree_tasks.h"
 
 namespace buckens::linalg {
 
@@ -18,39 +19,11 @@ namespace {
 
 // Subtrees per thread: enough to even out their work, few enough to leave large ones.
 constexpr double kSubtreesPerThread = 6.0;
+// Fronts heavier than this share of all work per thread are worth sharing: a front by itself keeps
+// several threads less busy than several fronts do.
+constexpr double kFrontToShare = 1.0 / 25.0;
 // Products from which sharing a front among threads costs less than it gains.
 constexpr double kSharedFront = 2e7;
-
-/// Memory that one subtree after the other works in: new pages cost as much as a tenth of the work.
-class Rooms {
- public:
-  StreamingMemory take(std::size_t size) {
-    StreamingMemory room;
-    {
-      const std::scoped_lock lock(mutex_);
-      if (!spare_.empty()) {
-        room = std::move(spare_.back());
-        spare_.pop_back();
-      }
-    }
-    if (room.size() < size) {
-      room = StreamingMemory();  // before the larger one, so that both never exist
-      room = StreamingMemory(size);
-    }
-    return room;
-  }
-
-  void give_back(StreamingMemory room) {
-    const std::scoped_lock lock(mutex_);
-    spare_.push_back(std::move(room));
-  }
-
-  void clear() { spare_.clear(); }
-
- private:
-  std::mutex mutex_;
-  std::vector<StreamingMemory> spare_;
-};
 
 class Multifrontal {
  public:
@@ -68,13 +41,16 @@ class Multifrontal {
 
   void run() {
     divide();
-    run_tasks(pool_, static_cast<int>(subtrees_.size()),
-              [this](int k) { factorise_subtree(subtrees_[at(k)].begin, subtrees_[at(k)].root); });
+    run_tree(pool_, above_, [this](int k) {
+      const Part& part = parts_[at(k)];
+      part.is_single ? factorise_single(part.root) : factorise_subtree(part.begin, part.root);
+    });
     rooms_.clear();
     std::vector<int> local(at(tree_.size));
-    for (const int s : top_) {
-      if (tree_.first_column[at(s)] > failed_) break;  // those before it do not depend on it
-      factorise_top(s, local);
+    for (const int s : shared_) {
+      if (is_lost(s)) break;  // so are those after it
+      StreamingMemory own(at64(front(s).own_size()));
+      factorise_top(s, own.data(), local, work(s) >= kSharedFront ? pool_ : nullptr);
     }
     if (failed_ < tree_.size) {
       throw IndefiniteMatrix(tree_.size, tree_.permutation[at(failed_)]);
@@ -84,9 +60,11 @@ class Multifrontal {
  private:
   static std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-  struct Subtree {
+  /// What one thread does: a whole subtree, or a single front above some.
+  struct Part {
     int begin, root;
     double work;
+    bool is_single;
   };
 
   Front front(int s) const { return {tree_.columns(s), tree_.rows_below(s)}; }
@@ -97,7 +75,7 @@ class Multifrontal {
     return columns * rows * rows;
   }
 
-  /// Subtrees for single threads, the heaviest first, and the supernodes above them.
+  /// Parts for single threads, and the supernodes above them, which all share.
   void divide() {
     std::vector<double> below(at(tree_.count));
     std::vector<int> begin(at(tree_.count));
@@ -113,19 +91,35 @@ class Multifrontal {
     }
     const int threads = pool_ == nullptr ? 1 : pool_->threads();
     const double most = total / (kSubtreesPerThread * threads);
+    std::vector<Part> singles;
+    std::vector<bool> is_shared(at(tree_.count));
     for (int s = 0; s < tree_.count; ++s) {
-      if (below[at(s)] > most) {
-        top_.push_back(s);
-        continue;
+      const int p = tree_.parent[at(s)];
+      if (below[at(s)] <= most) {
+        if (p < 0 || below[at(p)] > most) parts_.push_back({begin[at(s)], s, below[at(s)], false});
+      } else if (is_shared[at(s)] || work(s) > kFrontToShare * total / threads) {
+        shared_.push_back(s);
+        if (p >= 0) is_shared[at(p)] = true;
+      } else {
+        singles.push_back({s, s, work(s), true});
       }
-      const int p = tree_.parent[at(s)];
-      if (p < 0 || below[at(p)] > most) subtrees_.push_back({begin[at(s)], s, below[at(s)]});
-    }
-    for (int s = 0; s < tree_.count; ++s) {
-      const int p = tree_.parent[at(s)];
+      if (below[at(s)] > most) top_children_[s];
       if (p >= 0 && below[at(p)] > most) top_children_[p].push_back(s);
     }
-    std::ranges::stable_sort(subtrees_, std::ranges::greater{}, &Subtree::work);
+    std::ranges::stable_sort(parts_, std::ranges::less{}, &Part::work);
+    parts_.insert(parts_.end(), singles.begin(), singles.end());
+    connect_parts();
+  }
+
+  /// Parts with higher numbers come first where they may: fronts above others, which free memory,
+  /// then heavy subtrees, so that light ones even out the work in the end.
+  void connect_parts() {
+    std::vector<int> part(at(tree_.count), -1);
+    for (std::size_t k = 0; k < parts_.size(); ++k) part[at(parts_[k].root)] = static_cast<int>(k);
+    for (const Part& p : parts_) {
+      const int parent = tree_.parent[at(p.root)];
+      above_.push_back(parent < 0 ? -1 : part[at(parent)]);
+    }
   }
 
   /// Numbers that the fronts of a subtree take at most at the same time.
@@ -187,19 +181,32 @@ class Multifrontal {
     std::copy(values, values + size, rest_[at(s)].data());
   }
 
-  void factorise_top(int s, std::vector<int>& local) {
-    TaskPool* pool = work(s) >= kSharedFront ? pool_ : nullptr;
+  void factorise_single(int s) {
+    if (is_lost(s)) return;
+    StreamingMemory own = rooms_.take(at64(front(s).own_size()));
+    std::vector<int> local(at(tree_.size));
+    factorise_top(s, own.data(), local, nullptr);
+    rooms_.give_back(std::move(own));
+  }
+
+  /// @param own memory for the columns of s
+  void factorise_top(int s, double* own, std::vector<int>& local, TaskPool* pool) {
     Front f = front(s);
-    StreamingMemory own(at64(f.own_size()));
     StreamingMemory rest(at64(f.rest_size()));
-    f.begin(own.data(), rest.data(), pool);
+    f.begin(own, rest.data(), pool);
     number_rows(s, local);
     add_matrix(s, f, local);
-    for (const int child : top_children_[s]) {
+    for (const int child : top_children_.at(s)) {
       add_rest(child, rest_[at(child)].data(), f, local, pool);
       rest_[at(child)] = StreamingMemory();
     }
     if (eliminate(s, f, pool)) rest_[at(s)] = std::move(rest);
+  }
+
+  /// Whether a pivot below s was not positive. Supernodes before such a column do not depend on it.
+  bool is_lost(int s) {
+    const std::scoped_lock lock(failure_);
+    return tree_.first_column[at(s)] > failed_;
   }
 
   /// local[column of L] = row of the front of s.
@@ -259,11 +266,12 @@ class Multifrontal {
   std::vector<int> place_;  // column of L of each row of A
   std::mutex failure_;
   int failed_;  // first column of L without a positive pivot, their number if there is none
-  std::vector<Subtree> subtrees_;
-  std::vector<int> top_;
-  std::map<int, std::vector<int>> top_children_;
+  std::vector<Part> parts_;
+  std::vector<int> above_;                        // part above each, −1 if there is none
+  std::vector<int> shared_;                       // supernodes above all parts
+  std::map<int, std::vector<int>> top_children_;  // of supernodes that are in no whole subtree
   Rooms rooms_;
-  std::vector<StreamingMemory> rest_;  // of fronts whose parents are in the top
+  std::vector<StreamingMemory> rest_;  // of fronts whose parents are in no whole subtree
 };
 
 }  // namespace
