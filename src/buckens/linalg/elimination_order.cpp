@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <mutex>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include <amd.h>
 #include <metis.h>
@@ -92,28 +94,70 @@ void set_neighbours(std::vector<std::vector<int>>& lists, ColumnGraph& graph) {
   }
 }
 
-/// Neighbours by the rows of the first column of each vertex.
-void list_neighbours(const SparseMatrix& A, const std::vector<int>& vertex, ColumnGraph& graph) {
+/// Lists of vertices, one behind the other: vertex v has entries[begin[v]] …
+struct Lists {
+  std::vector<int> begin, entries;
+
+  bool operator==(const Lists&) const = default;
+  std::span<const int> of(std::size_t v) const {
+    return {entries.data() + begin[v], entries.data() + begin[v + 1]};
+  }
+};
+
+/// The vertices that each vertex is listed by, ascending.
+Lists transposed(const Lists& lists) {
+  Lists out;
+  const std::size_t count = lists.begin.size() - 1;
+  out.begin.assign(count + 1, 0);
+  for (const int w : lists.entries) ++out.begin[static_cast<std::size_t>(w) + 1];
+  std::partial_sum(out.begin.begin(), out.begin.end(), out.begin.begin());
+  out.entries.resize(lists.entries.size());
+  std::vector<int> next(out.begin.begin(), out.begin.end() - 1);
+  for (std::size_t v = 0; v < count; ++v) {
+    for (const int w : lists.of(v)) {
+      int& place = next[static_cast<std::size_t>(w)];
+      out.entries[static_cast<std::size_t>(place++)] = static_cast<int>(v);
+    }
+  }
+  return out;
+}
+
+/// Other vertices in the rows of the first column of each vertex.
+Lists listed_rows(const SparseMatrix& A, const std::vector<int>& vertex, const ColumnGraph& graph) {
+  Lists out;
   const std::size_t count = graph.first_column.size() - 1;
-  std::vector<std::vector<int>> others(count);  // entries that their mirror image may lack
   std::vector<int> seen(count, -1);
-  const auto each = [&](std::size_t v, auto&& visit) {
+  out.begin.push_back(0);
+  for (std::size_t v = 0; v < count; ++v) {
     const auto first = static_cast<std::size_t>(graph.first_column[v]);
     seen[v] = static_cast<int>(v);
     for (const int row : rows_of(A, graph.columns[first])) {
       const int w = vertex[static_cast<std::size_t>(row)];
-      if (seen[static_cast<std::size_t>(w)] == static_cast<int>(v)) continue;
-      seen[static_cast<std::size_t>(w)] = static_cast<int>(v);
-      visit(w);
+      if (std::exchange(seen[static_cast<std::size_t>(w)], static_cast<int>(v)) ==
+          static_cast<int>(v))
+        continue;
+      out.entries.push_back(w);
     }
-  };
-  for (std::size_t v = 0; v < count; ++v) {
-    each(v, [&](int w) {
-      others[v].push_back(w);
-      others[static_cast<std::size_t>(w)].push_back(static_cast<int>(v));
-    });
+    out.begin.push_back(static_cast<int>(out.entries.size()));
   }
-  set_neighbours(others, graph);
+  return out;
+}
+
+/// Neighbours by the rows of the first column of each vertex. Twice transposed lists are sorted,
+/// in a third of the time that sorting them takes.
+void list_neighbours(const SparseMatrix& A, const std::vector<int>& vertex, ColumnGraph& graph) {
+  Lists listing = transposed(listed_rows(A, vertex, graph));
+  const Lists listed = transposed(listing);
+  if (listing == listed) {  // each entry has its mirror image
+    graph.begin = std::move(listing.begin);
+    graph.neighbours = std::move(listing.entries);
+    return;
+  }
+  graph.begin.push_back(0);
+  for (std::size_t v = 0; v + 1 < listed.begin.size(); ++v) {
+    std::ranges::set_union(listed.of(v), listing.of(v), std::back_inserter(graph.neighbours));
+    graph.begin.push_back(static_cast<int>(graph.neighbours.size()));
+  }
 }
 
 std::vector<int> by_least_degree(const ColumnGraph& graph) {
