@@ -2,6 +2,8 @@
 #include "buckens/linalg/front.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -48,15 +50,18 @@ std::vector<Run> runs_of(std::span<const int> places) {
   return runs;
 }
 
-/// f(row, rows) for the tiles of rows from `begin` to `end`.
-template <class F>
-void for_tiles(int begin, int end, TaskPool* pool, F&& f) {
-  const int count = (end - begin + kTile - 1) / kTile;
-  run_tasks(pool, count, [&](int t) {
-    const int row = begin + t * kTile;
-    f(row, std::min(kTile, end - row));
-  });
-}
+/// The rows from `begin` to `end` in equal tiles, none higher than kTile: an even number of them,
+/// so that two threads have the same to do, or one where there is little to do.
+struct RowTiles {
+  RowTiles(int from, int to) : begin(from), end(to) {
+    const int pairs = (to - from + 2 * kTile - 1) / (2 * kTile);
+    count = to - from > kTile / 2 ? 2 * pairs : pairs;
+  }
+
+  int begin, end, count;
+  int row(int t) const { return begin + static_cast<int>(std::int64_t{end - begin} * t / count); }
+  int rows(int t) const { return row(t + 1) - row(t); }
+};
 
 }  // namespace
 
@@ -96,18 +101,26 @@ void Front::add(const double* rest, std::span<const int> places, TaskPool* pool)
 
 int Front::eliminate(TaskPool* pool) {
   int failed = -1;
-  for (int p = 0; p < own_.blocks(); ++p) {
+  for (int p = 0; p < own_.blocks() && failed < 0; ++p) {
     const int first = p * kTile;
     const int end = first + own_.width(p);
-    const int below = (own_.rows - end + kTile - 1) / kTile;
-    run_tasks(pool, 1 + below, [&](int t) {
-      if (t == 0) return update_tile(p, first, end - first);
-      const int row = end + (t - 1) * kTile;
-      update_tile(p, row, std::min(kTile, own_.rows - row));
+    const RowTiles below(end, own_.rows);
+    // Task 0 begins first, so that those which wait for it cannot keep it from ending.
+    std::atomic<bool> is_factorised = false;  // the block of the diagonal
+    run_tasks(pool, 1 + below.count, [&](int t) {
+      if (t == 0) {
+        update_tile(p, first, end - first);
+        factorise_diagonal(p, failed);
+        is_factorised = true;
+        is_factorised.notify_all();
+        return;
+      }
+      update_tile(p, below.row(t - 1), below.rows(t - 1));
+      is_factorised.wait(false);
+      if (failed < 0) divide_tile(p, below.row(t - 1), below.rows(t - 1));
     });
-    if (!factorise_diagonal(p, failed)) return failed;
-    for_tiles(end, own_.rows, pool, [&](int row, int rows) { divide_tile(p, row, rows); });
   }
+  if (failed >= 0) return failed;
   std::vector<std::pair<int, int>> tiles;  // block and first row
   for (int q = 0; q < rest_.blocks(); ++q) {
     for (int row = q * kTile; row < rest_.rows; row += kTile) tiles.emplace_back(q, row);
@@ -135,7 +148,7 @@ void Front::update_tile(int p, int row, int rows) {
   }
 }
 
-bool Front::factorise_diagonal(int p, int& failed) {
+void Front::factorise_diagonal(int p, int& failed) {
   const SingleThread alone;
   const int size = own_.width(p);
   const int stride = own_.stride(p);
@@ -145,9 +158,7 @@ bool Front::factorise_diagonal(int p, int& failed) {
   for (int k = 0; info == 0 && k < size; ++k) {  // LAPACK lets some numbers that are none pass
     if (!(values[static_cast<std::ptrdiff_t>(k) * stride + k] > 0.0)) info = k + 1;
   }
-  if (info == 0) return true;
-  failed = p * kTile + info - 1;
-  return false;
+  if (info != 0) failed = p * kTile + info - 1;
 }
 
 void Front::divide_tile(int p, int row, int rows) {

@@ -38,7 +38,7 @@ class Front {
 
  private:
   void update_tile(int p, int row, int rows);
-  bool factorise_diagonal(int p, int& failed);
+  void factorise_diagonal(int p, int& failed);
   void divide_tile(int p, int row, int rows);
   void update_rest(int q, int row, int rows);
 

@@ -107,10 +107,12 @@ TEST(Multifrontal, NamesTheSameColumnWithAnyNumberOfThreads) {
 }
 
 TEST(Multifrontal, FindsAPivotThatIsNone) {
-  for (const int column : {3, 299, 500}) {
+  for (const int column : {3, 299, 500, 599}) {
     SparseMatrix A = matrices::dense_definite(600);
     A.coeffRef(column, column) = -1.0;
     EXPECT_THROW(factor_of(A, find_supernode_tree(A), nullptr), IndefiniteMatrix) << column;
+    TaskPool pool(3);  // threads that wait for the diagonal go on
+    EXPECT_THROW(factor_of(A, find_supernode_tree(A), &pool), IndefiniteMatrix) << column;
   }
   SparseMatrix zero(3, 3);
   EXPECT_THROW(factor_of(zero, find_supernode_tree(zero), nullptr), IndefiniteMatrix);
