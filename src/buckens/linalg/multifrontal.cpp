@@ -19,9 +19,12 @@ namespace {
 
 // Subtrees per thread: enough to even out their work, few enough to leave large ones.
 constexpr double kSubtreesPerThread = 6.0;
-// Fronts heavier than this share of all work per thread are worth sharing: a front by itself keeps
-// several threads less busy than several fronts do.
-constexpr double kFrontToShare = 1.0 / 25.0;
+// Products up to which a front keeps several threads less busy than several such fronts do, one
+// each: it has few tiles.
+constexpr double kFewTiles = 1e9;
+// But no such front may take longer than this share of what each thread does: the others would wait
+// for it.
+constexpr double kLongest = 1.0 / 25.0;
 // Products from which sharing a front among threads costs less than it gains.
 constexpr double kSharedFront = 2e7;
 
@@ -91,13 +94,14 @@ class Multifrontal {
     }
     const int threads = pool_ == nullptr ? 1 : pool_->threads();
     const double most = total / (kSubtreesPerThread * threads);
+    const double heaviest = std::min(kFewTiles, kLongest * total / threads);
     std::vector<Part> singles;
     std::vector<bool> is_shared(at(tree_.count));
     for (int s = 0; s < tree_.count; ++s) {
       const int p = tree_.parent[at(s)];
       if (below[at(s)] <= most) {
         if (p < 0 || below[at(p)] > most) parts_.push_back({begin[at(s)], s, below[at(s)], false});
-      } else if (is_shared[at(s)] || work(s) > kFrontToShare * total / threads) {
+      } else if (is_shared[at(s)] || work(s) > heaviest) {
         shared_.push_back(s);
         if (p >= 0) is_shared[at(p)] = true;
       } else {
