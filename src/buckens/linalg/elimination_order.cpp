@@ -179,7 +179,7 @@ std::vector<int> by_nested_dissection(const ColumnGraph& graph) {
   options[METIS_OPTION_SEED] = 1;
   idx_t vertices = graph.size();
   std::vector<idx_t> order(weights.size()), place(weights.size());
-  // METIS draws its random numbers from rand(), which all threads share.
+  // METIS draws its random numbers from a generator that all threads of the process share.
   static std::mutex turn;
   const std::scoped_lock lock(turn);
   const int status = METIS_NodeND(&vertices, begin.data(), neighbours.data(), weights.data(),
