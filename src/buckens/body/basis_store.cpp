@@ -3,6 +3,8 @@
 
 #include <bit>
 
+#include "buckens/linalg/node_matrix.h"
+
 namespace buckens::body {
 
 namespace {
@@ -40,7 +42,12 @@ class Hash {
 std::uint64_t basis_key(const FlexiblePart& part, const std::string& choice) {
   Hash hash;
   for (const char letter : choice) hash.add(static_cast<std::uint64_t>(letter));
-  hash.add_matrix(part.fe.M.whole());
+  const linalg::SparseMatrix* nodes = part.fe.M.nodes();
+  if (nodes != nullptr) {  // not to stay in memory
+    hash.add_matrix(linalg::of_variables(*nodes));
+  } else {
+    hash.add_matrix(part.fe.M.whole());
+  }
   hash.add_matrix(part.fe.K.whole());
   const Eigen::SparseMatrix<double, Eigen::RowMajor> N = part.rows.topRows(part.num_interface_rows);
   hash.add_matrix(N);

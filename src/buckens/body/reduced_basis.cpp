@@ -30,7 +30,7 @@ constexpr double kStraining = 1e-9;
 constexpr int kFirstTrial = 16;
 
 /// M-orthonormal basis of the span of the columns, dependent ones left out.
-Matrix orthonormalised(const SparseMatrix& M, const Matrix& columns) {
+Matrix orthonormalised(const linalg::SymmetricMatrix& M, const Matrix& columns) {
   if (columns.cols() == 0) return columns;
   const Vector size = (columns.transpose() * (M * columns)).diagonal().cwiseMax(0.0).cwiseSqrt();
   Matrix scaled = columns;
@@ -89,7 +89,7 @@ StaticShapes static_shapes(const FlexiblePart& part, const ElasticInverse& inver
 }
 
 /// The part of the shapes beyond the modes, (1 − φφᵀM) s, M-orthonormal.
-Matrix residuals(const SparseMatrix& M, const Matrix& modes, Matrix shapes) {
+Matrix residuals(const linalg::SymmetricMatrix& M, const Matrix& modes, Matrix shapes) {
   const Vector whole = (shapes.transpose() * (M * shapes)).diagonal();
   // Twice, so that what is left is orthogonal to rounding.
   for (int pass = 0; pass < 2; ++pass) shapes -= modes * (modes.transpose() * (M * shapes));
@@ -204,7 +204,7 @@ ReducedBasis free_free_basis(const std::string& body, const FlexiblePart& part, 
 
 ReducedBasis craig_bampton_basis(const std::string& body, const FlexiblePart& part,
                                  const CraigBamptonChoice& choice, double length) {
-  const SparseMatrix& M = part.fe.M;
+  const linalg::SymmetricMatrix& M = part.fe.M;
   const ElasticInverse inverse(body, part.fe, part.sieve, length);
   const Matrix all_loads = interface_loads(part);
   const Matrix loads = all_loads.leftCols(part.num_held_rows());

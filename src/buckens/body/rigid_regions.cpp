@@ -15,6 +15,7 @@
 #include "buckens/fem/assembly/made_columns.h"
 #include "buckens/fem/constraint/elimination.h"
 #include "buckens/fem/element/node_label.h"
+#include "buckens/linalg/node_matrix.h"
 #include "buckens/linalg/ranks.h"
 #include "buckens/linalg/shared_matrix.h"
 
@@ -85,11 +86,15 @@ class Condensation {
   bool is_free(std::size_t node) const { return elimination_.is_free[node]; }
   /// TᵀAT.
   SparseMatrix condensed(const SparseMatrix& A) const { return fem::condensed(A, T_); }
-  /// The same of a matrix of the mesh, where it is divided without bringing it back.
+  /// The same of a matrix of the mesh. One by node remains so, and one that is divided is not
+  /// brought back.
   linalg::SymmetricMatrix condensed(fem::MeshMatrix which, const linalg::SymmetricMatrix& A) const {
-    if (!A.is_divided() || !linalg::is_shared_work(T_.cols())) return condensed(A.whole());
-    const fem::Following rows = T_;
-    return fem::matrix_made_elsewhere(which, full_->blocks, {full_->nodes, full_->dofs}, &rows);
+    if (A.is_divided() && linalg::is_shared_work(T_.cols())) {
+      const fem::Following rows = T_;
+      return fem::matrix_made_elsewhere(which, full_->blocks, {full_->nodes, full_->dofs}, &rows);
+    }
+    if (A.nodes() != nullptr) return condensed(linalg::of_variables(*A.nodes()));
+    return condensed(A.whole());
   }
   /// Component `axis` of the displacements of all nodes, a row each.
   SparseMatrix component(std::size_t axis) const {

@@ -20,7 +20,7 @@ using Amplitudes = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 }  // namespace
 
 Sieve::Sieve(const Matrix& Phi, const linalg::SymmetricMatrix& M) {
-  if (!M.is_formed()) {
+  if (M.is_divided() || M.nodes() != nullptr) {
     S_ = Phi.transpose() * (M * Phi);
   } else {  // Eigen adds up in another order if M Φ is not a part of the expression
     S_ = Phi.transpose() * (M.whole() * Phi);

@@ -105,7 +105,7 @@ int Front::eliminate(TaskPool* pool) {
     const int first = p * kTile;
     const int end = first + own_.width(p);
     const RowTiles below(end, own_.rows);
-    // Task 0 begins first, so that those which wait for it cannot keep it from ending.
+    // Task 0 begins first and throws nothing, so that those which wait for it go on.
     std::atomic<bool> is_factorised = false;  // the block of the diagonal
     run_tasks(pool, 1 + below.count, [&](int t) {
       if (t == 0) {

@@ -19,8 +19,8 @@ namespace {
 
 // Subtrees per thread: enough to even out their work, few enough to leave large ones.
 constexpr double kSubtreesPerThread = 6.0;
-// Products up to which a front keeps several threads less busy than several such fronts do, one
-// each: it has few tiles.
+// Fronts of up to so many products have few tiles: threads are busier with one such front each than
+// with sharing one.
 constexpr double kFewTiles = 1e9;
 // But no such front may take longer than this share of what each thread does: the others would wait
 // for it.
@@ -78,7 +78,7 @@ class Multifrontal {
     return columns * rows * rows;
   }
 
-  /// Parts for single threads, and the supernodes above them, which all share.
+  /// Parts for single threads, and the supernodes above them, which all threads share.
   void divide() {
     std::vector<double> below(at(tree_.count));
     std::vector<int> begin(at(tree_.count));
@@ -207,7 +207,8 @@ class Multifrontal {
     if (eliminate(s, f, pool)) rest_[at(s)] = std::move(rest);
   }
 
-  /// Whether a pivot below s was not positive. Supernodes before such a column do not depend on it.
+  /// Whether a pivot in a column before s was not positive. Supernodes before such a column do not
+  /// depend on it.
   bool is_lost(int s) {
     const std::scoped_lock lock(failure_);
     return tree_.first_column[at(s)] > failed_;

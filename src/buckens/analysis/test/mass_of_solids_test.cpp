@@ -25,6 +25,11 @@ model::test::Described swinging_block(body::CouplingLevel level) {
   return m;
 }
 
+/// Of the mesh behind the first body.
+const linalg::SymmetricMatrix& mass_of_mesh(const model::Model& model) {
+  return model.bodies[0].flexible->mesh().M;
+}
+
 TEST(MassOfSolids, RunsNeedNoneOfItsEntries) {
   for (const auto level : {body::CouplingLevel::full, body::CouplingLevel::none}) {
     const auto built = swinging_block(level).build();
@@ -35,6 +40,29 @@ TEST(MassOfSolids, RunsNeedNoneOfItsEntries) {
     EXPECT_EQ(M.nodes(), built->model.bodies[0].flexible->fe.shape.nodal.Ms.get());
     EXPECT_FALSE(M.is_formed());
   }
+}
+
+TEST(MassOfSolids, MeshesOfReducedBodiesKeepNoneOfItsEntries) {
+  auto m = swinging_block(body::CouplingLevel::full);
+  m.d.bodies[0].reduction.craig_bampton.emplace();
+  m.d.bodies[0].reduction.craig_bampton->modes = 3;
+  const auto built = m.build();
+  EXPECT_NE(mass_of_mesh(built->model).nodes(), nullptr);
+  EXPECT_FALSE(mass_of_mesh(built->model).is_formed());
+}
+
+TEST(MassOfSolids, MeshesBehindRigidInterfacesKeepNoneOfItsEntries) {
+  auto m = swinging_block(body::CouplingLevel::full);
+  body::InterfaceSpec face;
+  face.name = "face";
+  face.where = model::test::at_line(45);
+  face.region = fem::NamedFaceSpec{model::test::at_line(46), "x1"};
+  face.kind = body::InterfaceKind::rigid;
+  m.d.bodies[0].interfaces = {face};
+  const auto built = m.build();
+  EXPECT_EQ(built->model.bodies[0].flexible->fe.M.nodes(), nullptr);
+  EXPECT_NE(mass_of_mesh(built->model).nodes(), nullptr);
+  EXPECT_FALSE(mass_of_mesh(built->model).is_formed());
 }
 
 }  // namespace

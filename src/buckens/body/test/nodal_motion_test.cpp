@@ -119,6 +119,15 @@ TEST(NodalMotion, SievesAndCouplesAsColumnsDo) {
   }
 }
 
+TEST(NodalMotion, EntriesOfMThatWereFormedBeforeChangeNoBitOfTheSieve) {
+  const fem::FeModel fe = mesh(fem::SolidKind::hex8);
+  const Sieve before(Columns::motions(fe), fe.M);
+  fe.M.whole();
+  const Sieve after(Columns::motions(fe), fe.M);
+  EXPECT_EQ(before.Phi(), after.Phi());
+  EXPECT_EQ(before.P(), after.P());
+}
+
 TEST(NodalMotion, WorksInPieces) {
   for (const fem::SolidKind kind : kKinds) {
     const Columns columns(kind);
