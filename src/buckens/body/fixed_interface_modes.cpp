@@ -11,7 +11,6 @@
 #include "buckens/body/iterated_modes.h"
 #include "buckens/body/shift_estimate.h"
 #include "buckens/linalg/inverse_iteration.h"
-#include "buckens/linalg/matrix_sum.h"
 #include "buckens/linalg/pivoted_qr.h"
 #include "buckens/linalg/pseudo_inverse.h"
 #include "buckens/linalg/sparse_cholesky.h"
@@ -70,10 +69,7 @@ FreeModes iterate_fixed(const FlexiblePart& part, const Matrix& columns, int cou
   const linalg::SymmetricMatrix& M = part.fe.M;
   const double bound = lowest_square_estimate(part);
   const double shift = bound > 0.0 ? 0.3 * bound : cautious_shift(M, part.fe.K);
-  linalg::MatrixSum shifted;
-  shifted.add(1.0, part.fe.K);
-  shifted.add(shift, M);
-  const linalg::SparseCholesky factor(shifted.whole());
+  const linalg::SparseCholesky factor(shifted(part.fe.K, shift, M));
   const Matrix G = factor.solve(columns);
   linalg::PseudoInverse stiffness;
   stiffness.compute(columns.transpose() * G);

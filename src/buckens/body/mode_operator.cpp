@@ -59,14 +59,6 @@ SparseMatrix bordered(const SparseMatrix& K, const Matrix& P) {
   return out;
 }
 
-std::shared_ptr<const SparseMatrix> shifted(const SymmetricMatrix& K, double shift,
-                                            const SymmetricMatrix& M) {
-  linalg::MatrixSum sum;
-  sum.add(1.0, K);
-  sum.add(shift, M);
-  return linalg::shared_matrix(sum.whole());
-}
-
 double largest_by_power(const std::function<Vector(const Vector&)>& apply, Eigen::Index size) {
   Vector x = linalg::scattered_block(size, 1, 3);
   double norm = 0.0;
@@ -81,9 +73,16 @@ double largest_by_power(const std::function<Vector(const Vector&)>& apply, Eigen
 
 }  // namespace
 
+SparseMatrix shifted(const SymmetricMatrix& K, double shift, const SymmetricMatrix& M) {
+  linalg::MatrixSum sum;
+  sum.add(1.0, K);
+  sum.add(shift, M);
+  return sum.whole();
+}
+
 ModeOperator sieved_operator(const SymmetricMatrix& M, const SymmetricMatrix& K, const Sieve& sieve,
                              double shift, const linalg::MakeFactor& make) {
-  const std::shared_ptr<const SparseMatrix> A = shifted(K, shift, M);
+  const std::shared_ptr<const SparseMatrix> A = linalg::shared_matrix(shifted(K, shift, M));
   const auto factor = make(*A);
   ModeOperator op;
   op.shift = shift;
@@ -176,7 +175,7 @@ ModeOperator full_penalty_operator(const SymmetricMatrix& K, const Matrix& P, do
 ModeOperator woodbury_penalty_operator(const SymmetricMatrix& M, const SymmetricMatrix& K,
                                        const Sieve& sieve, double penalty, double shift,
                                        const linalg::MakeFactor& make) {
-  const std::shared_ptr<const SparseMatrix> A = shifted(K, shift, M);
+  const std::shared_ptr<const SparseMatrix> A = linalg::shared_matrix(shifted(K, shift, M));
   const auto factor = make(*A);
   const auto P = std::make_shared<Matrix>(sieve.P());
   const auto Z = std::make_shared<Matrix>(factor->solve(*P));

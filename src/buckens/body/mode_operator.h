@@ -25,6 +25,10 @@ struct ModeOperator {
   std::shared_ptr<TaskPool> pool;
 };
 
+/// K + μM, of which M may be given by node.
+linalg::SparseMatrix shifted(const linalg::SymmetricMatrix& K, double shift,
+                             const linalg::SymmetricMatrix& M);
+
 /// Y (K + μM)⁻¹Yᵀ, FM (30), (31): one sparse Cholesky factor, or what `make` makes in its place.
 /// @throws NumericalError if μ is lost in the rounding of K
 ModeOperator sieved_operator(const linalg::SymmetricMatrix& M, const linalg::SymmetricMatrix& K,

@@ -86,8 +86,8 @@ class Condensation {
   bool is_free(std::size_t node) const { return elimination_.is_free[node]; }
   /// TᵀAT.
   SparseMatrix condensed(const SparseMatrix& A) const { return fem::condensed(A, T_); }
-  /// The same of a matrix of the mesh. One by node remains so, and one that is divided is not
-  /// brought back.
+  /// The same of a matrix of the mesh, which afterwards takes no more memory in this process:
+  /// entries of one by node do not stay, and one that is divided is not brought back.
   linalg::SymmetricMatrix condensed(fem::MeshMatrix which, const linalg::SymmetricMatrix& A) const {
     if (A.is_divided() && linalg::is_shared_work(T_.cols())) {
       const fem::Following rows = T_;

@@ -21,8 +21,8 @@ using TakeColumns =
 ///
 /// Multifrontal (Duff and Reid 1983; Liu 1992): every supernode adds up what its children subtract
 /// from its rows, eliminates its columns by dense products (OpenBLAS) and leaves the rest to its
-/// parent. Threads take whole subtrees; then all share the fronts above them, tile by tile. Sums
-/// and products are the same with any number of threads.
+/// parent. Threads take whole subtrees and single small fronts above them; all share the others,
+/// tile by tile. Sums and products are the same with any number of threads.
 /// @param A symmetric, both triangles stored
 /// @throws IndefiniteMatrix if A is not positive definite
 /// @throws std::bad_alloc

@@ -33,7 +33,7 @@ class SymmetricMatrix {
   /// One that is divided from the beginning.
   explicit SymmetricMatrix(std::shared_ptr<const DividedMatrix> rows);
   /// A ⊗ 1: node j has the variables 3j, 3j + 1 and 3j + 2. Reads `nodes`, as others may.
-  /// @param nodes A, compressed
+  /// @param nodes A, compressed, with entries
   static SymmetricMatrix by_node(std::shared_ptr<const SparseMatrix> nodes);
   SymmetricMatrix(const SymmetricMatrix&) = default;
   SymmetricMatrix& operator=(const SymmetricMatrix&) = default;
@@ -57,7 +57,8 @@ class SymmetricMatrix {
   /// Of Frobenius.
   double norm() const;
 
-  /// In this process, from now on. The reference ends with the next divide().
+  /// In this process, from now on. The reference ends with the next divide(). Not from several
+  /// threads at once, unless is_formed().
   const SparseMatrix& whole() const;
   /// A of A ⊗ 1, or null: products need nothing else, and entries follow from it.
   const SparseMatrix* nodes() const { return nodes_.get(); }
@@ -89,7 +90,8 @@ class SymmetricMatrix {
   /// Hash of pattern and values.
   std::array<std::uint64_t, 2> content() const;
 
-  /// Gives the rows to the other processes, unless they have them. @pre Ranks::count() > 1
+  /// Gives the rows to the other processes, unless they have them; a matrix by node is one like
+  /// others from then on. @pre Ranks::count() > 1
   /// @throws NumericalError if memory is too small
   const DividedMatrix& divide() const;
   /// Has the rows of an equal matrix from now on, where other processes have those.
