@@ -205,6 +205,31 @@ void plugin_take_pair(int number, int pair, float* load, float* answer) {
   ranks()->take_pair(number, pair, load, answer);
 }
 
+void plugin_runs(int size, int* first) { ranks()->runs(size, first); }
+
+int plugin_begin_rows(int size, const BuckensGridDescription* of, char* error, int error_size) {
+  return number_of(error, error_size,
+                   [&](Ranks& all_of_them) { return all_of_them.begin_rows(size, *of); });
+}
+
+int plugin_work_rows(const void* program, long count, int sums_each, double* sums, char* error,
+                     int error_size) {
+  return ranks()->work_rows(program, count, sums_each, sums) ? 0 : fail(error, error_size);
+}
+
+int plugin_put_rows(int number, int vector, const double* values, char* error, int error_size) {
+  return ranks()->put_rows(number, vector, values) ? 0 : fail(error, error_size);
+}
+
+void plugin_take_rows(int number, int vector, double* values) {
+  ranks()->take_rows(number, vector, values);
+}
+
+int plugin_solve_rows(void* solver, int number, int b, int x, char* error, int error_size) {
+  const int of_solver = static_cast<Handle*>(solver)->number;
+  return ranks()->solve_rows(of_solver, number, b, x) ? 0 : fail(error, error_size);
+}
+
 const BuckensGridPlugin plugin = {
     kBuckensGridVersion,  plugin_name,         plugin_make,          plugin_solve,
     plugin_bytes,         plugin_release,      plugin_join,          plugin_serve,
@@ -212,7 +237,9 @@ const BuckensGridPlugin plugin = {
     plugin_make_rows,     plugin_make_columns, plugin_add_up,        plugin_multiply,
     plugin_inner_product, plugin_diagonal,     plugin_near_diagonal, plugin_marks,
     plugin_edges,         plugin_gather,       plugin_forget,        plugin_make_pairs,
-    plugin_project,       plugin_combine,      plugin_put_pair,      plugin_take_pair};
+    plugin_project,       plugin_combine,      plugin_put_pair,      plugin_take_pair,
+    plugin_runs,          plugin_begin_rows,   plugin_work_rows,     plugin_put_rows,
+    plugin_take_rows,     plugin_solve_rows};
 
 }  // namespace
 

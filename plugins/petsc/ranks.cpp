@@ -37,6 +37,7 @@ Ranks::Ranks() : shared_(std::make_unique<Shared>()) {
   MPI_Comm_dup(MPI_COMM_WORLD, &work_);
   MPI_Comm_rank(work_, &rank_);
   MPI_Comm_size(work_, &count_);
+  MPI_Comm_split(work_, rank_ == 0 ? MPI_UNDEFINED : 0, rank_, &others_);
 }
 
 Ranks& Ranks::join() {
@@ -126,7 +127,15 @@ void Ranks::serve(const BuckensGridMaker& maker) {
         serve_matrices(order);
         break;
       case Task::forget:
+        if (shared_->runs.count(order.number) > 0) maker_.end_rows(order.number);
         shared_->forget(order.number);
+        break;
+      case Task::begin_rows:
+      case Task::work_rows:
+      case Task::put_rows:
+      case Task::take_rows:
+      case Task::solve_rows:
+        serve_rows(order);
         break;
       case Task::make_pairs:
       case Task::project:

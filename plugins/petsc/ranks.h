@@ -70,6 +70,14 @@ class Ranks {
   void combine(int number, int pairs, const float* weights, float* sum);
   void put_pair(int number, int pair, const float* load, const float* answer);
   void take_pair(int number, int pair, float* load, float* answer);
+  /// First rows of the others, and the end.
+  void runs(int size, int* first) const;
+  /// Of the first: see BuckensGridPlugin.
+  int begin_rows(int size, const BuckensGridDescription& of);
+  bool work_rows(const void* program, long count, int sums_each, double* sums);
+  bool put_rows(int number, int vector, const double* values);
+  void take_rows(int number, int vector, double* values);
+  bool solve_rows(int solver, int number, int b, int x);
   /// Of the first: so far.
   BuckensGridTraffic traffic() const { return traffic_; }
 
@@ -80,6 +88,8 @@ class Ranks {
   struct OwnRows;
   struct Divided;
   struct Pairs;
+  struct Way;
+  struct Runs;
 
   Ranks();
   void give(const Order& order);
@@ -103,7 +113,8 @@ class Ranks {
   bool divide_together(const Order& order, const BuckensGridColumns* all, BuckensGridFacts& facts);
   bool make_columns_together(const Order& order, const BuckensGridDescription* of,
                              BuckensGridFacts& facts);
-  bool send_descriptions(const Divided& matrix, const BuckensGridDescription& of);
+  bool send_descriptions(const std::vector<int>& first, const BuckensGridDescription& of);
+  bool receive_description(std::vector<char>& description);
   bool make_columns_of(const std::vector<char>& description, Divided& matrix);
   bool add_up_together(const Order& order, const double* weights, BuckensGridFacts& facts);
   bool keep(const Order& order, std::unique_ptr<Divided> matrix, BuckensGridFacts& facts);
@@ -136,9 +147,18 @@ class Ranks {
   void combine_together(Pairs& own, int pairs, const float* weights, float* sum);
   void put_pair_together(Pairs& own, int pair, const float* load, const float* answer);
   void take_pair_together(Pairs& own, int pair, float* load, float* answer);
+  void serve_rows(const Order& order);
+  void add_runs(const Order& order);
+  bool begin_rows_together(const Order& order, const BuckensGridDescription* of);
+  bool work_rows_together(const Order& order, const void* program, double* sums);
+  bool put_rows_together(const Order& order, const double* values);
+  void take_rows_together(const Order& order, double* values);
+  bool solve_rows_together(const Order& order);
+  std::unique_ptr<Way> find_way(const std::vector<int>& variables, const Runs& runs) const;
   bool has_failed_somewhere(bool has_failed);
 
   MPI_Comm orders_ = MPI_COMM_NULL, work_ = MPI_COMM_NULL;
+  MPI_Comm others_ = MPI_COMM_NULL;  // of those who serve
   int rank_ = 0, count_ = 1;
   int next_ = 0;
   BuckensGridMaker maker_{};  // of the others

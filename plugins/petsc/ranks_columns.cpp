@@ -26,15 +26,10 @@ bool Ranks::make_columns_together(const Order& order, const BuckensGridDescripti
   std::unique_ptr<Divided> matrix = empty_division(order);
   bool is_made = false;
   if (of != nullptr) {
-    is_made = send_descriptions(*matrix, *of);
+    is_made = send_descriptions(matrix->first, *of);
   } else {
-    long bytes = 0;
-    receive(&bytes, 1, 0, work_);
-    if (bytes >= 0) {
-      std::vector<char> description(static_cast<std::size_t>(bytes));
-      receive(description.data(), description.size(), 0, work_);
-      is_made = make_columns_of(description, *matrix);
-    }
+    std::vector<char> description;
+    is_made = receive_description(description) && make_columns_of(description, *matrix);
   }
   if (has_failed_somewhere(!is_made)) return false;
   const bool is_kept = keep(order, std::move(matrix), facts);
@@ -42,13 +37,22 @@ bool Ranks::make_columns_together(const Order& order, const BuckensGridDescripti
   return is_kept;
 }
 
-bool Ranks::send_descriptions(const Divided& matrix, const BuckensGridDescription& of) {
+/// Of the others: what send_descriptions() sends.
+bool Ranks::receive_description(std::vector<char>& description) {
+  long bytes = 0;
+  receive(&bytes, 1, 0, work_);
+  if (bytes < 0) return false;
+  description.resize(static_cast<std::size_t>(bytes));
+  receive(description.data(), description.size(), 0, work_);
+  return true;
+}
+
+bool Ranks::send_descriptions(const std::vector<int>& first, const BuckensGridDescription& of) {
   bool has_memory = true;
   for (int k = 1; k < count_; ++k) {
     const void* bytes = nullptr;
     long count = -1;
-    has_memory = has_memory &&
-                 of.describe(of.source, matrix.first[k], matrix.first[k + 1], &bytes, &count) == 0;
+    has_memory = has_memory && of.describe(of.source, first[k], first[k + 1], &bytes, &count) == 0;
     if (!has_memory) count = -1;
     send_counted(&count, 1, k);
     if (count < 0) continue;

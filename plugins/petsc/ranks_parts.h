@@ -40,6 +40,11 @@ enum class Task : int {
   combine,
   put_pair,
   take_pair,
+  begin_rows,
+  work_rows,
+  put_rows,
+  take_rows,
+  solve_rows,
   leave
 };
 constexpr int kMostMotions = 6;
@@ -51,12 +56,13 @@ struct Ranks::Order {
   int size = 0;
   union {
     int block = 1;
-    int columns;  // of a matrix that is not symmetric; pairs, or which of them
+    int columns;  // of a matrix that is not symmetric; pairs, or which of them; sums of a program
   };
   int num_motions = 0, options = 0;
   union {
     BuckensGridLimits limits{};                // of a solve
     std::array<int, kBuckensMostProducts> of;  // matrices of products or of a sum, then −1
+    long bytes;                                // of a program
   };
 
   void set_matrices(const int* numbers, int count) {
@@ -68,6 +74,20 @@ struct Ranks::Order {
   }
 };
 
+/// How numbers come from the processes that have rows of a vector to those that have them in a
+/// factor, and back.
+struct Ranks::Way {
+  std::vector<int> given;   // rows here, for one process after the other
+  std::vector<int> places;  // in the factor here, of what one process after the other gives
+  std::vector<int> out_counts, out_first, in_counts, in_first;
+  std::vector<double> out, in;
+};
+
+/// The rows of vectors of a body: those of the processes, and the end.
+struct Ranks::Runs {
+  std::vector<int> first, counts;
+};
+
 /// A solver, and which rows of its matrix are here.
 struct Ranks::Part {
   std::unique_ptr<LoadedSolver> solver;
@@ -76,6 +96,7 @@ struct Ranks::Part {
   std::vector<int> counts;
   std::vector<int> variables;  // of the factor, process after process; only the first has them
   std::vector<double> b, x, whole;
+  std::unique_ptr<Way> way;  // of the rows of others to the factor; null before it is used
 
   bool is_direct() const { return factor != nullptr || solver->is_direct(); }
   double bytes() const {
@@ -120,10 +141,12 @@ struct Ranks::Shared {
   std::map<int, std::unique_ptr<Part>> parts;  // by number
   std::map<int, std::unique_ptr<Divided>> matrices;
   std::map<int, std::unique_ptr<Pairs>> pairs;
+  std::map<int, Runs> runs;
 
   void forget(int number) {
     matrices.erase(number);
     pairs.erase(number);
+    runs.erase(number);
   }
   // Of products: what one process gets of all x; what it adds to all y, of the others.
   std::vector<double> share, results;
@@ -137,11 +160,13 @@ struct Ranks::OwnRows {
   std::vector<double> values, motions;
 };
 
-/// Runs of rows of the processes other than the first, which holds everything else of a body.
+/// Runs of rows of the processes other than the first, which holds everything else of a body: of
+/// whole nodes, if there may be three variables for each.
 inline std::vector<int> runs_of_others(int size, int count) {
+  const int unit = size % 3 == 0 ? 3 : 1;
   std::vector<int> first = {0};
   for (int k = 0; k < count; ++k) {
-    first.push_back(static_cast<int>(static_cast<long>(size) * k / (count - 1)));
+    first.push_back(static_cast<int>(static_cast<long>(size / unit) * k / (count - 1)) * unit);
   }
   return first;
 }

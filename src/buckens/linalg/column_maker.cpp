@@ -52,7 +52,10 @@ void add_content_of(int first, int end, const BuckensGridColumns* columns,
 
 BuckensGridMaker column_maker(MakeColumns make) {
   the_maker = make;
-  return {make_some, add_content_of};
+  BuckensGridMaker out{};
+  out.make = make_some;
+  out.add_content = add_content_of;
+  return out;
 }
 
 }  // namespace buckens::linalg

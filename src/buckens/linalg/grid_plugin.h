@@ -7,7 +7,7 @@
 extern "C" {
 
 /// Rises with every change of what stands here.
-enum { kBuckensGridVersion = 8 };
+enum { kBuckensGridVersion = 9 };
 
 /// Products that one order may ask for.
 enum { kBuckensMostProducts = 8 };
@@ -78,6 +78,16 @@ struct BuckensGridDescription {
   void* source;
 };
 
+/// How a process that has rows of vectors reaches the others that have some.
+struct BuckensGridPeers {
+  /// Gives numbers to each of these processes and takes some from each, one after the other, itself
+  /// included.
+  void (*exchange)(void* context, const int* out_counts, const double* out, const int* in_counts,
+                   double* in);
+  void* context;
+  int count;
+};
+
 /// What the program does in the processes other than the first.
 struct BuckensGridMaker {
   /// Columns `first` to `end` - 1 of a matrix, of a symmetric one from the diagonal on, of what
@@ -88,6 +98,14 @@ struct BuckensGridMaker {
   /// not count.
   void (*add_content)(int first, int end, const BuckensGridColumns* columns,
                       unsigned long long* content);
+  /// Takes note of what belongs to its rows of the vectors of a body, as described.
+  int (*begin_rows)(int number, const void* bytes, long count, char* error, int error_size);
+  void (*end_rows)(int number);
+  /// Does what a program of the first process says. `sums` live until the next call.
+  int (*work_rows)(const void* program, long count, const BuckensGridPeers* peers,
+                   const double** sums, long* num_sums, char* error, int error_size);
+  /// Where its rows of a vector are, which gets room if it has none; null if memory is too small.
+  double* (*rows)(int number, int vector);
 };
 
 /// Functions that fail return null or not zero and write why into `error`.
@@ -157,6 +175,18 @@ struct BuckensGridPlugin {
   void (*combine)(int number, int pairs, const float* weights, float* sum);
   void (*put_pair)(int number, int pair, const float* load, const float* answer);
   void (*take_pair)(int number, int pair, float* load, float* answer);
+  /// First rows of the other processes, and the end: as many numbers as there are processes.
+  void (*runs)(int size, int* first);
+  /// Of the first: what belongs to the rows of each process of the vectors of a body.
+  /// @return its number, -1 after an error; forget() ends it
+  int (*begin_rows)(int size, const BuckensGridDescription* of, char* error, int error_size);
+  /// Has the others work on their rows. @param sums of each, one process after the other
+  int (*work_rows)(const void* program, long count, int sums_each, double* sums, char* error,
+                   int error_size);
+  int (*put_rows)(int number, int vector, const double* values, char* error, int error_size);
+  void (*take_rows)(int number, int vector, double* values);
+  /// x = A^-1 b by a solver that make() made of a factor, b and x vectors of the others.
+  int (*solve_rows)(void* solver, int number, int b, int x, char* error, int error_size);
 };
 
 /// The one function that a plug-in exports.

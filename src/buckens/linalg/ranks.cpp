@@ -18,6 +18,7 @@
 #include "buckens/linalg/divided_graph.h"
 #include "buckens/linalg/factor_work.h"
 #include "buckens/linalg/grid_library.h"
+#include "buckens/linalg/row_service.h"
 #include "buckens/linalg/single_thread.h"
 #include "buckens/linalg/sparse_cholesky.h"
 
@@ -165,7 +166,8 @@ Ranks::~Ranks() {
 
 void Ranks::serve(MakeColumns make) {
   const SingleThread single;
-  const BuckensGridMaker maker = column_maker(make);
+  BuckensGridMaker maker = column_maker(make);
+  serve_rows(maker);
   grid_solver().serve(&maker);
 }
 

@@ -57,7 +57,7 @@ std::vector<bool> variables_behind(int num_dofs, int first, int end, const Follo
   return out;
 }
 
-void put_following(const Following& T, const std::vector<int>& variables, BytesTo& put) {
+void put_following(const Following& T, const std::vector<int>& variables, base::BytesTo& put) {
   put(static_cast<int>(T.cols()));
   for (const int row : variables) {
     put(T.outerIndexPtr()[row + 1] - T.outerIndexPtr()[row]);
@@ -75,7 +75,7 @@ struct PartFollowing {
   SparseMatrix T;
 };
 
-PartFollowing taken_following(std::size_t rows, BytesFrom& take) {
+PartFollowing taken_following(std::size_t rows, base::BytesFrom& take) {
   PartFollowing out;
   take(out.size);
   std::vector<linalg::Triplet> entries;
@@ -104,7 +104,7 @@ PartFollowing taken_following(std::size_t rows, BytesFrom& take) {
 std::vector<std::byte> description_of_columns(
     MeshMatrix which, const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
     const MeshView& mesh, int first, int end, const Following* T) {
-  BytesTo put;
+  base::BytesTo put;
   put(which);
   const std::vector<int> variables =
       put_part(blocks, mesh, variables_behind(mesh.dofs.num_dofs, first, end, T), put);
@@ -124,7 +124,7 @@ linalg::SymmetricMatrix matrix_made_elsewhere(
 }
 
 SparseMatrix made_columns(std::span<const std::byte> description, int first, int end) {
-  BytesFrom take(description);
+  base::BytesFrom take(description);
   const auto which = take.next<MeshMatrix>();
   if (which == MeshMatrix::stress) return made_stress_rows(take, first, end);
   const MeshPart part = taken_part(take);

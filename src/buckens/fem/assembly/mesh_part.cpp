@@ -31,38 +31,38 @@ const void* common_of(const BeamBlock& beams, int e) { return &beams.properties(
 const void* common_of(const SolidBlock& solids, int e) { return solids.material(e); }
 const void* common_of(const ShellBlock& shells, int e) { return &shells.shell_section(e); }
 
-void put_common(const ElementBlock& /*block*/, int /*e*/, BytesTo& /*put*/) {}
-void put_common(const BeamBlock& beams, int e, BytesTo& put) {
+void put_common(const ElementBlock& /*block*/, int /*e*/, base::BytesTo& /*put*/) {}
+void put_common(const BeamBlock& beams, int e, base::BytesTo& put) {
   BeamProperties copy = beams.properties(e);
   visit_numbers(copy, put);
 }
-void put_common(const SolidBlock& solids, int e, BytesTo& put) {
+void put_common(const SolidBlock& solids, int e, base::BytesTo& put) {
   Material copy = *solids.material(e);
   visit_numbers(copy, put);
 }
-void put_common(const ShellBlock& shells, int e, BytesTo& put) {
+void put_common(const ShellBlock& shells, int e, base::BytesTo& put) {
   ShellSection copy = shells.shell_section(e);
   visit_numbers(copy, put);
 }
 
-void take_common(BytesFrom& /*take*/, ElementBlock& /*block*/) {}
-void take_common(BytesFrom& take, BeamBlock& beams) {
+void take_common(base::BytesFrom& /*take*/, ElementBlock& /*block*/) {}
+void take_common(base::BytesFrom& take, BeamBlock& beams) {
   BeamProperties properties;
   visit_numbers(properties, take);
   beams.add_properties(std::move(properties));
 }
-void take_common(BytesFrom& take, SolidBlock& solids) {
+void take_common(base::BytesFrom& take, SolidBlock& solids) {
   Material material;
   visit_numbers(material, take);
   solids.add_material(material);
 }
-void take_common(BytesFrom& take, ShellBlock& shells) {
+void take_common(base::BytesFrom& take, ShellBlock& shells) {
   ShellSection section;
   visit_numbers(section, take);
   shells.add_section(section);
 }
 
-void put_own(const BeamBlock& beams, int e, BytesTo& put) {
+void put_own(const BeamBlock& beams, int e, base::BytesTo& put) {
   BeamPortion portion = beams.portion(e);
   visit_numbers(portion.up, put);
   const SectionTaper* taper = beams.taper(e);
@@ -71,7 +71,7 @@ void put_own(const BeamBlock& beams, int e, BytesTo& put) {
   SectionTaper copy = *taper;
   visit_numbers(copy, put);
 }
-void take_own(BytesFrom& take, std::span<const int> nodes, int common, BeamBlock& beams) {
+void take_own(base::BytesFrom& take, std::span<const int> nodes, int common, BeamBlock& beams) {
   BeamPortion portion;
   visit_numbers(portion.up, take);
   SectionTaper taper;
@@ -80,13 +80,13 @@ void take_own(BytesFrom& take, std::span<const int> nodes, int common, BeamBlock
   beams.add(nodes[0], nodes[1], common, portion, is_tapered ? &taper : nullptr);
 }
 
-void put_own(const BarBlock& bars, int e, BytesTo& put) {
+void put_own(const BarBlock& bars, int e, base::BytesTo& put) {
   Material material = *bars.material(e);
   Section section = *bars.section(e);
   visit_numbers(material, put);
   visit_numbers(section, put);
 }
-void take_own(BytesFrom& take, std::span<const int> nodes, int /*common*/, BarBlock& bars) {
+void take_own(base::BytesFrom& take, std::span<const int> nodes, int /*common*/, BarBlock& bars) {
   Material material;
   Section section;
   visit_numbers(material, take);
@@ -94,45 +94,47 @@ void take_own(BytesFrom& take, std::span<const int> nodes, int /*common*/, BarBl
   bars.add(nodes[0], nodes[1], material, section);
 }
 
-void put_own(const PointMassBlock& masses, int e, BytesTo& put) {
+void put_own(const PointMassBlock& masses, int e, base::BytesTo& put) {
   Eigen::Matrix3d inertia = masses.inertia(e);
   put(masses.mass(e));
   visit_numbers(inertia, put);
 }
-void take_own(BytesFrom& take, std::span<const int> nodes, int /*common*/, PointMassBlock& masses) {
+void take_own(base::BytesFrom& take, std::span<const int> nodes, int /*common*/,
+              PointMassBlock& masses) {
   const auto mass = take.next<double>();
   Eigen::Matrix3d inertia;
   visit_numbers(inertia, take);
   masses.add(nodes[0], mass, inertia);
 }
 
-void put_own(const SolidBlock& solids, int e, BytesTo& put) {
+void put_own(const SolidBlock& solids, int e, base::BytesTo& put) {
   put(solids.form(e).kind);
   put(solids.form(e).integration);
 }
-void take_own(BytesFrom& take, std::span<const int> nodes, int common, SolidBlock& solids) {
+void take_own(base::BytesFrom& take, std::span<const int> nodes, int common, SolidBlock& solids) {
   SolidForm form;
   take(form.kind);
   take(form.integration);
   solids.add(form, nodes, common);
 }
 
-void put_own(const ShellBlock& shells, int e, BytesTo& put) {
+void put_own(const ShellBlock& shells, int e, base::BytesTo& put) {
   // They are not computed anew: those at the border depend on elements that are not here.
   ShellVectors directors = shells.directors({}, e);
   visit_numbers(directors, put);
 }
-void take_own(BytesFrom& take, std::span<const int> nodes, int common, ShellBlock& shells) {
+void take_own(base::BytesFrom& take, std::span<const int> nodes, int common, ShellBlock& shells) {
   ShellVectors directors(3, static_cast<Eigen::Index>(nodes.size()));
   visit_numbers(directors, take);
   shells.add(nodes, common, directors);
 }
 
-void put_own(const SpringBlock& springs, int e, BytesTo& put) {
+void put_own(const SpringBlock& springs, int e, base::BytesTo& put) {
   SpringBlock::Stiffness stiffness = springs.stiffness(e);
   visit_numbers(stiffness, put);
 }
-void take_own(BytesFrom& take, std::span<const int> nodes, int /*common*/, SpringBlock& springs) {
+void take_own(base::BytesFrom& take, std::span<const int> nodes, int /*common*/,
+              SpringBlock& springs) {
   SpringBlock::Stiffness stiffness;
   visit_numbers(stiffness, take);
   springs.add(nodes[0], nodes[1], stiffness);
@@ -140,7 +142,7 @@ void take_own(BytesFrom& take, std::span<const int> nodes, int /*common*/, Sprin
 
 template <class Block>
 void put_elements(const Block& block, const std::vector<int>& elements,
-                  const std::vector<int>& number, BytesTo& put) {
+                  const std::vector<int>& number, base::BytesTo& put) {
   std::map<const void*, int> places;
   std::vector<int> with;  // an element for each place
   for (const int e : elements) {
@@ -161,7 +163,7 @@ void put_elements(const Block& block, const std::vector<int>& elements,
 }
 
 template <class Block>
-std::shared_ptr<const ElementBlock> taken_elements(BytesFrom& take) {
+std::shared_ptr<const ElementBlock> taken_elements(base::BytesFrom& take) {
   auto out = std::make_shared<Block>();
   for (int left = take.next<int>(); left > 0; --left) take_common(take, *out);
   std::vector<int> nodes;
@@ -176,7 +178,7 @@ std::shared_ptr<const ElementBlock> taken_elements(BytesFrom& take) {
 
 template <std::size_t... kinds>
 void put_block(const ElementBlock& block, const std::vector<int>& elements,
-               const std::vector<int>& number, BytesTo& put,
+               const std::vector<int>& number, base::BytesTo& put,
                std::index_sequence<kinds...> /*each*/) {
   bool is_known = false;
   const auto put_as = [&](const auto* own, int kind) {
@@ -192,7 +194,7 @@ void put_block(const ElementBlock& block, const std::vector<int>& elements,
 }
 
 template <std::size_t... kinds>
-std::shared_ptr<const ElementBlock> taken_block(BytesFrom& take,
+std::shared_ptr<const ElementBlock> taken_block(base::BytesFrom& take,
                                                 std::index_sequence<kinds...> /*each*/) {
   const int kind = take.next<int>();
   std::shared_ptr<const ElementBlock> out;
@@ -217,7 +219,8 @@ bool is_any_asked(const DofMap& dofs, std::span<const int> nodes,
 }  // namespace
 
 std::vector<int> put_part(const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
-                          const MeshView& mesh, const std::vector<bool>& is_asked, BytesTo& put) {
+                          const MeshView& mesh, const std::vector<bool>& is_asked,
+                          base::BytesTo& put) {
   std::vector<std::vector<int>> elements;
   for (const auto& block : blocks) {
     auto& own = elements.emplace_back();
@@ -230,7 +233,7 @@ std::vector<int> put_part(const std::vector<std::shared_ptr<const ElementBlock>>
 
 std::vector<int> put_part(const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
                           const MeshView& mesh, const std::vector<std::vector<int>>& elements,
-                          BytesTo& put) {
+                          base::BytesTo& put) {
   std::vector<int> number(mesh.nodes.size(), -1);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     for (const int e : elements[b]) {
@@ -257,7 +260,7 @@ std::vector<int> put_part(const std::vector<std::shared_ptr<const ElementBlock>>
   return variables;
 }
 
-MeshPart taken_part(BytesFrom& take) {
+MeshPart taken_part(base::BytesFrom& take) {
   MeshPart out;
   take(out.size);
   for (int left = take.next<int>(); left > 0; --left) {

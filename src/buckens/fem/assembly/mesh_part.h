@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "buckens/fem/assembly/number_bytes.h"
+#include "buckens/base/number_bytes.h"
 #include "buckens/fem/element/block.h"
 
 namespace buckens::fem {
@@ -24,11 +24,12 @@ struct MeshPart {
 /// @return all variables of these elements, ascending
 /// @pre shells have directors
 std::vector<int> put_part(const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
-                          const MeshView& mesh, const std::vector<bool>& is_asked, BytesTo& put);
+                          const MeshView& mesh, const std::vector<bool>& is_asked,
+                          base::BytesTo& put);
 /// Puts chosen elements of each block, ascending.
 std::vector<int> put_part(const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
                           const MeshView& mesh, const std::vector<std::vector<int>>& elements,
-                          BytesTo& put);
-MeshPart taken_part(BytesFrom& take);
+                          base::BytesTo& put);
+MeshPart taken_part(base::BytesFrom& take);
 
 }  // namespace buckens::fem

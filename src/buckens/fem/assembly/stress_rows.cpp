@@ -86,7 +86,7 @@ linalg::SparseRows stress_rows(const Blocks& blocks, const MeshView& mesh) {
 
 std::vector<std::byte> description_of_stress_rows(const Blocks& blocks, const MeshView& mesh,
                                                   int first, int end) {
-  BytesTo put;
+  base::BytesTo put;
   put(MeshMatrix::stress);
   // The elements to which these rows belong: they follow each other, as rows do.
   std::vector<std::vector<int>> elements(blocks.size());
@@ -107,7 +107,7 @@ std::vector<std::byte> description_of_stress_rows(const Blocks& blocks, const Me
   return put.take();
 }
 
-SparseMatrix made_stress_rows(BytesFrom description, int first, int end) {
+SparseMatrix made_stress_rows(base::BytesFrom description, int first, int end) {
   const int first_of_part = description.next<int>();
   const MeshPart part = taken_part(description);
   const auto visit = [&](auto&& entry) {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "buckens/fem/assembly/number_bytes.h"
+#include "buckens/base/number_bytes.h"
 #include "buckens/fem/element/block.h"
 #include "buckens/linalg/sparse_rows.h"
 
@@ -24,6 +24,6 @@ std::vector<std::byte> description_of_stress_rows(
     int end);
 
 /// How it makes them, each a column. @param description as above, behind what it is one of
-linalg::SparseMatrix made_stress_rows(BytesFrom description, int first, int end);
+linalg::SparseMatrix made_stress_rows(base::BytesFrom description, int first, int end);
 
 }  // namespace buckens::fem

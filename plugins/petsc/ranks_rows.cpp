@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vectors of which each process but the first has a run of rows, and work on them.
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <vector>
+
+#include "ranks_messages.h"
+#include "ranks_parts.h"
+
+namespace buckens_petsc {
+
+namespace {
+
+constexpr std::size_t kVector = 0, kAnswer = 1, kSolver = 2;  // in Order::of
+
+void exchange_numbers(void* context, const int* out_counts, const double* out, const int* in_counts,
+                      double* in) {
+  const MPI_Comm others = *static_cast<MPI_Comm*>(context);
+  int count = 0;
+  MPI_Comm_size(others, &count);
+  const std::vector<int> out_first = starts_of({out_counts, out_counts + count});
+  const std::vector<int> in_first = starts_of({in_counts, in_counts + count});
+  MPI_Alltoallv(out, out_counts, out_first.data(), MPI_DOUBLE, in, in_counts, in_first.data(),
+                MPI_DOUBLE, others);
+}
+
+}  // namespace
+
+void Ranks::runs(int size, int* first) const {
+  const std::vector<int> all = runs_of_others(size, count_);
+  std::copy(all.begin() + 1, all.end(), first);
+}
+
+void Ranks::add_runs(const Order& order) {
+  Runs& runs = shared_->runs[order.number];
+  runs.first = runs_of_others(order.size, count_);
+  for (int k = 0; k < count_; ++k) runs.counts.push_back(runs.first[k + 1] - runs.first[k]);
+}
+
+int Ranks::begin_rows(int size, const BuckensGridDescription& of) {
+  const Order order = give_new(Task::begin_rows, size);
+  return begin_rows_together(order, &of) ? order.number : -1;
+}
+
+bool Ranks::begin_rows_together(const Order& order, const BuckensGridDescription* of) {
+  bool is_made = false;
+  if (of != nullptr) {
+    is_made = send_descriptions(runs_of_others(order.size, count_), *of);
+  } else {
+    std::vector<char> description;
+    is_made = receive_description(description);
+    std::array<char, 400> error{};
+    if (is_made &&
+        maker_.begin_rows(order.number, description.data(), static_cast<long>(description.size()),
+                          error.data(), static_cast<int>(error.size())) != 0) {
+      set_reason(error.data());
+      is_made = false;
+    }
+  }
+  if (has_failed_somewhere(!is_made)) return false;
+  add_runs(order);
+  return true;
+}
+
+bool Ranks::work_rows(const void* program, long count, int sums_each, double* sums) {
+  Order order;
+  order.task = Task::work_rows;
+  order.columns = sums_each;
+  order.bytes = count;
+  give(order);
+  return work_rows_together(order, program, sums);
+}
+
+bool Ranks::work_rows_together(const Order& order, const void* program, double* sums) {
+  std::vector<char> bytes(static_cast<std::size_t>(order.bytes));
+  if (rank_ == 0) std::memcpy(bytes.data(), program, bytes.size());
+  MPI_Bcast(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, 0, work_);
+  count_messages(count_ - 1, static_cast<double>(bytes.size()));
+  const double* own = nullptr;
+  long num_sums = 0;
+  bool is_done = true;
+  if (rank_ != 0) {
+    std::array<char, 400> error{};
+    int count = 0;
+    MPI_Comm_size(others_, &count);
+    const BuckensGridPeers peers{exchange_numbers, &others_, count};
+    is_done = maker_.work_rows(bytes.data(), order.bytes, &peers, &own, &num_sums, error.data(),
+                               static_cast<int>(error.size())) == 0;
+    if (!is_done) set_reason(error.data());
+    if (is_done && num_sums != order.columns) {
+      set_reason("the program asked for other sums than it got");
+      is_done = false;
+    }
+  }
+  if (has_failed_somewhere(!is_done)) return false;
+  if (order.columns == 0) return true;
+  const auto each = static_cast<std::size_t>(order.columns);
+  if (rank_ != 0) {
+    send(own, each, 0, work_);
+    return true;
+  }
+  for (int k = 1; k < count_; ++k)
+    receive(sums + each * static_cast<std::size_t>(k - 1), each, k, work_);
+  count_messages(count_ - 1, static_cast<double>(each * sizeof *sums));
+  return true;
+}
+
+bool Ranks::put_rows(int number, int vector, const double* values) {
+  Order order;
+  order.task = Task::put_rows;
+  order.number = number;
+  order.of[kVector] = vector;
+  give(order);
+  return put_rows_together(order, values);
+}
+
+bool Ranks::put_rows_together(const Order& order, const double* values) {
+  const Runs& runs = shared_->runs.at(order.number);
+  double* own = rank_ != 0 ? maker_.rows(order.number, order.of[kVector]) : nullptr;
+  if (rank_ != 0 && own == nullptr)
+    set_reason("there is too little memory for the rows of a vector");
+  if (has_failed_somewhere(rank_ != 0 && own == nullptr)) return false;
+  MPI_Scatterv(values, runs.counts.data(), runs.first.data(), MPI_DOUBLE, own, runs.counts[rank_],
+               MPI_DOUBLE, 0, work_);
+  count_messages(count_ - 1, 0);
+  traffic_.bytes += sizeof(double) * static_cast<double>(runs.first.back());
+  return true;
+}
+
+void Ranks::take_rows(int number, int vector, double* values) {
+  Order order;
+  order.task = Task::take_rows;
+  order.number = number;
+  order.of[kVector] = vector;
+  give(order);
+  take_rows_together(order, values);
+}
+
+void Ranks::take_rows_together(const Order& order, double* values) {
+  const Runs& runs = shared_->runs.at(order.number);
+  const double* own = rank_ != 0 ? maker_.rows(order.number, order.of[kVector]) : nullptr;
+  MPI_Gatherv(own, runs.counts[rank_], MPI_DOUBLE, values, runs.counts.data(), runs.first.data(),
+              MPI_DOUBLE, 0, work_);
+  count_messages(count_ - 1, 0);
+  traffic_.bytes += sizeof(double) * static_cast<double>(runs.first.back());
+}
+
+bool Ranks::solve_rows(int solver, int number, int b, int x) {
+  Order order;
+  order.task = Task::solve_rows;
+  order.number = number;
+  order.of = {b, x, solver};
+  give(order);
+  return solve_rows_together(order);
+}
+
+/// Each process tells those with rows of its variables which it wants.
+std::unique_ptr<Ranks::Way> Ranks::find_way(const std::vector<int>& variables,
+                                            const Runs& runs) const {
+  auto way = std::make_unique<Way>();
+  const auto owner = [&](int variable) {
+    return std::upper_bound(runs.first.begin(), runs.first.end(), variable) - runs.first.begin() -
+           1;
+  };
+  way->places.resize(variables.size());
+  std::iota(way->places.begin(), way->places.end(), 0);
+  std::stable_sort(way->places.begin(), way->places.end(), [&](int a, int b) {
+    return owner(variables[static_cast<std::size_t>(a)]) <
+           owner(variables[static_cast<std::size_t>(b)]);
+  });
+  way->in_counts.assign(static_cast<std::size_t>(count_), 0);
+  std::vector<int> wanted;
+  for (const int place : way->places) {
+    wanted.push_back(variables[static_cast<std::size_t>(place)]);
+    ++way->in_counts[static_cast<std::size_t>(owner(wanted.back()))];
+  }
+  way->in_first = starts_of(way->in_counts);
+  way->out_counts.resize(static_cast<std::size_t>(count_));
+  MPI_Alltoall(way->in_counts.data(), 1, MPI_INT, way->out_counts.data(), 1, MPI_INT, work_);
+  way->out_first = starts_of(way->out_counts);
+  way->given.resize(static_cast<std::size_t>(way->out_first.back()));
+  MPI_Alltoallv(wanted.data(), way->in_counts.data(), way->in_first.data(), MPI_INT,
+                way->given.data(), way->out_counts.data(), way->out_first.data(), MPI_INT, work_);
+  for (int& row : way->given) row -= runs.first[static_cast<std::size_t>(rank_)];
+  way->out.resize(way->given.size());
+  way->in.resize(wanted.size());
+  return way;
+}
+
+bool Ranks::solve_rows_together(const Order& order) {
+  Part& part = *shared_->parts.at(order.of[kSolver]);
+  double* b = nullptr;
+  double* x = nullptr;
+  if (rank_ != 0) {
+    x = maker_.rows(order.number, order.of[kAnswer]);
+    b = maker_.rows(order.number, order.of[kVector]);
+  }
+  const bool lacks_room = rank_ != 0 && (x == nullptr || b == nullptr);
+  if (lacks_room) set_reason("there is too little memory for the rows of a vector");
+  if (has_failed_somewhere(lacks_room)) return false;
+  if (!part.way) part.way = find_way(part.factor->variables(), shared_->runs.at(order.number));
+  Way& way = *part.way;
+  for (std::size_t k = 0; k < way.given.size(); ++k) way.out[k] = b[way.given[k]];
+  MPI_Alltoallv(way.out.data(), way.out_counts.data(), way.out_first.data(), MPI_DOUBLE,
+                way.in.data(), way.in_counts.data(), way.in_first.data(), MPI_DOUBLE, work_);
+  for (std::size_t k = 0; k < way.places.size(); ++k)
+    part.b[static_cast<std::size_t>(way.places[k])] = way.in[k];
+  const bool has_failed = !part.factor->solve(part.b.data(), part.x.data());
+  for (std::size_t k = 0; k < way.places.size(); ++k)
+    way.in[k] = part.x[static_cast<std::size_t>(way.places[k])];
+  MPI_Alltoallv(way.in.data(), way.in_counts.data(), way.in_first.data(), MPI_DOUBLE,
+                way.out.data(), way.out_counts.data(), way.out_first.data(), MPI_DOUBLE, work_);
+  for (std::size_t k = 0; k < way.given.size(); ++k) x[way.given[k]] = way.out[k];
+  count_messages(2 * (count_ - 1), 0);
+  traffic_.bytes += 2.0 * sizeof(double) * static_cast<double>(way.in.size());  // of the first's
+  return !has_failed_somewhere(has_failed);
+}
+
+/// Of the others.
+void Ranks::serve_rows(const Order& order) {
+  switch (order.task) {
+    case Task::begin_rows:
+      (void)begin_rows_together(order, nullptr);
+      break;
+    case Task::work_rows:
+      (void)work_rows_together(order, nullptr, nullptr);
+      break;
+    case Task::put_rows:
+      (void)put_rows_together(order, nullptr);
+      break;
+    case Task::take_rows:
+      take_rows_together(order, nullptr);
+      break;
+    default:
+      (void)solve_rows_together(order);
+  }
+}
+
+}  // namespace buckens_petsc

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/linalg/row_service.h"
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "buckens/linalg/row_worker.h"
+
+namespace buckens::linalg {
+
+namespace {
+
+RowWorker& worker() {
+  static RowWorker own;
+  return own;
+}
+
+class Peers final : public RowPeers {
+ public:
+  explicit Peers(const BuckensGridPeers& peers) : peers_(&peers) {}
+  void exchange(std::span<const int> out_counts, const double* out, std::span<const int> in_counts,
+                double* in) override {
+    peers_->exchange(peers_->context, out_counts.data(), out, in_counts.data(), in);
+  }
+
+ private:
+  const BuckensGridPeers* peers_;
+};
+
+/// Errors end here: C is between them and the first process. @return not zero after one
+template <class Action>
+int told(char* error, int error_size, Action&& action) try {
+  action();
+  return 0;
+} catch (const std::bad_alloc&) {
+  std::snprintf(error, static_cast<std::size_t>(error_size), "%s",
+                "there is too little memory for the rows of vectors");
+  return 1;
+} catch (const std::exception& failure) {
+  std::snprintf(error, static_cast<std::size_t>(error_size), "%s", failure.what());
+  return 1;
+}
+
+std::span<const std::byte> as_bytes(const void* bytes, long count) {
+  return {static_cast<const std::byte*>(bytes), static_cast<std::size_t>(count)};
+}
+
+int begin_rows(int number, const void* bytes, long count, char* error, int error_size) {
+  return told(error, error_size, [&] {
+    base::BytesFrom take(as_bytes(bytes, count));
+    worker().add(number, described_rows(take));
+  });
+}
+
+void end_rows(int number) { worker().remove(number); }
+
+int work_rows(const void* program, long count, const BuckensGridPeers* peers, const double** sums,
+              long* num_sums, char* error, int error_size) {
+  return told(error, error_size, [&] {
+    Peers others(*peers);
+    const std::span<const double> found = worker().work(as_bytes(program, count), others);
+    *sums = found.data();
+    *num_sums = static_cast<long>(found.size());
+  });
+}
+
+double* rows(int number, int vector) try {
+  return worker().rows(number, vector).data();
+} catch (const std::bad_alloc&) {
+  return nullptr;
+}
+
+}  // namespace
+
+void serve_rows(BuckensGridMaker& maker) {
+  maker.begin_rows = begin_rows;
+  maker.end_rows = end_rows;
+  maker.work_rows = work_rows;
+  maker.rows = rows;
+}
+
+}  // namespace buckens::linalg

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "buckens/linalg/row_worker.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace buckens::linalg {
+
+namespace {
+
+// Vectors come and go by the dozen in each step.
+constexpr std::size_t kMostSpare = 16;
+
+std::size_t place(int number) { return static_cast<std::size_t>(number); }
+
+}  // namespace
+
+void RowWorker::add(int space, RowTables tables) {
+  auto made = std::make_unique<Space>();
+  made->tables = std::move(tables);
+  const RowTables& own = made->tables;
+  // No node is the last one: vectors have a number more than their nodes have.
+  made->mass = {own.Ms.valuePtr(), own.Ms.innerIndexPtr(), own.Ms.outerIndexPtr(),
+                std::numeric_limits<int>::max()};
+  spaces_[space] = std::move(made);
+}
+
+void RowWorker::remove(int space) {
+  const Space* gone = spaces_.at(space).get();
+  std::erase_if(vectors_, [gone](const auto& own) { return own.second.space == gone; });
+  spaces_.erase(space);
+}
+
+std::span<double> RowWorker::rows(int space, int vector) {
+  const Space& of = *spaces_.at(space);
+  return {make_room(of, vector), of.rows()};
+}
+
+double* RowWorker::make_room(const Space& space, int vector) {
+  Held& own = vectors_[vector];
+  own.space = &space;
+  if (own.numbers.size() == space.room()) return own.numbers.data();
+  const auto found = std::find_if(spare_.begin(), spare_.end(), [&](const auto& numbers) {
+    return numbers.size() == space.room();
+  });
+  if (found != spare_.end()) {
+    own.numbers.swap(*found);
+    spare_.erase(found);
+  } else {
+    own.numbers.assign(space.room(), 0.0);
+  }
+  return own.numbers.data();
+}
+
+std::span<const double> RowWorker::work(std::span<const std::byte> program, RowPeers& peers) {
+  sums_.clear();
+  Take take(program);
+  const Space& space = *spaces_.at(take.next<int>());
+  while (!take.is_at_end()) do_task(take.next<RowTask>(), space, take, peers);
+  return sums_;
+}
+
+void RowWorker::do_task(RowTask task, const Space& space, Take& take, RowPeers& peers) {
+  switch (task) {
+    case RowTask::room:
+      make_room(space, take.next<int>());
+      break;
+    case RowTask::drop: {
+      const auto own = vectors_.find(take.next<int>());
+      if (own == vectors_.end()) break;
+      if (spare_.size() == kMostSpare) spare_.erase(spare_.begin());
+      spare_.push_back(std::move(own->second.numbers));
+      vectors_.erase(own);
+      break;
+    }
+    case RowTask::combine:
+      combine(space, take);
+      break;
+    case RowTask::multiply_mass:
+      multiply_mass(space, take, peers);
+      break;
+    case RowTask::couple:
+      couple(space, take, peers);
+      break;
+    case RowTask::moments:
+      add_moments(space, take);
+      break;
+    case RowTask::subtract:
+      subtract(space, take);
+      break;
+    case RowTask::row_products:
+      multiply_rows(space, take);
+      break;
+    case RowTask::compare:
+      compare(space, take);
+      break;
+    case RowTask::total:
+      add_total(space, take);
+      break;
+  }
+}
+
+void RowWorker::combine(const Space& space, Take& take) {
+  const auto to = take.next<int>();
+  const auto adds = take.next<bool>();
+  const auto count = take.next<int>();
+  Eigen::Map<Vector> y(make_room(space, to), static_cast<Eigen::Index>(space.rows()));
+  for (int k = 0; k < count; ++k) {
+    const auto weight = take.next<double>();
+    const Eigen::Map<const Vector> x(at(take.next<int>()), y.size());
+    if (k == 0 && !adds) {
+      y = weight * x;
+    } else {
+      y += weight * x;
+    }
+  }
+  if (count == 0 && !adds) y.setZero();
+}
+
+void RowWorker::fill_beside(const Space& space, std::initializer_list<double*> vectors,
+                            RowPeers& peers) {
+  const RowTables& own = space.tables;
+  const int per_node = 3 * static_cast<int>(vectors.size());
+  std::vector<int> out_counts = own.out_counts, in_counts = own.in_counts;
+  for (int& count : out_counts) count *= per_node;
+  for (int& count : in_counts) count *= per_node;
+  out_.clear();
+  for (const int node : own.sent) {
+    for (const double* x : vectors) out_.insert(out_.end(), x + 3 * node, x + 3 * node + 3);
+  }
+  in_.resize(place(per_node) * own.beside.size());
+  peers.exchange(out_counts, out_.data(), in_counts, in_.data());
+  const double* from = in_.data();
+  for (std::size_t k = 0; k < own.beside.size(); ++k) {
+    for (double* x : vectors) {
+      std::copy_n(from, 3, x + space.rows() + 3 * k);
+      from += 3;
+    }
+  }
+}
+
+void RowWorker::multiply_mass(const Space& space, Take& take, RowPeers& peers) {
+  double* y = make_room(space, take.next<int>());
+  double* x = at(take.next<int>());
+  fill_beside(space, {x}, peers);
+  kernels_->multiply(space.mass, 0, space.tables.nodes, x, y);
+}
+
+void RowWorker::couple(const Space& space, Take& take, RowPeers& peers) {
+  const auto load = take.next<int>();
+  std::array<double*, 3> vectors{};
+  for (double*& x : vectors) x = at(take.next<int>());
+  std::array<double, kCoupleWeights> weights{};
+  take.take_all(weights.data(), weights.size());
+  fill_beside(space, {vectors[0], vectors[1]}, peers);
+  double* to = nullptr;
+  if (load >= 0) {
+    to = make_room(space, load);
+    std::fill_n(to, space.rows(), 0.0);
+  }
+  NodeSums sums;
+  kernels_->couple(space.mass, 0, space.tables.nodes, vectors.data(), weights.data(), to, sums);
+  sums_.insert(sums_.end(), sums.value, sums.value + kCoupleSums);
+}
+
+void RowWorker::add_moments(const Space& space, Take& take) {
+  NodeSums sums;
+  kernels_->moments(space.tables.first_moments.data(), 0, space.tables.nodes, at(take.next<int>()),
+                    sums);
+  sums_.insert(sums_.end(), sums.value, sums.value + kMomentSums);
+}
+
+void RowWorker::subtract(const Space& space, Take& take) {
+  double* y = at(take.next<int>());
+  std::array<double, kMotionNumbers> motion{};
+  take.take_all(motion.data(), motion.size());
+  kernels_->subtract(space.tables.positions.data(), 0, space.tables.nodes, motion.data(), y);
+}
+
+void RowWorker::multiply_rows(const Space& space, Take& take) {
+  const auto& N = space.tables.N;
+  const auto count = take.next<int>();
+  for (int k = 0; k < count; ++k) {
+    const Eigen::Map<const Vector> x(at(take.next<int>()), N.cols());
+    const Vector y = N * x;
+    sums_.insert(sums_.end(), y.data(), y.data() + y.size());
+  }
+}
+
+void RowWorker::compare(const Space& space, Take& take) {
+  const auto n = static_cast<Eigen::Index>(space.rows());
+  const auto next = [&] { return Eigen::Map<const Vector>(at(take.next<int>()), n); };
+  const auto x = next();
+  const auto before = next();
+  const auto weights = next();
+  const auto of_factors = take.next<int>();
+  const Eigen::Map<const Vector> factors(of_factors >= 0 ? at(of_factors) : weights.data(), n);
+  double change = 0, size = 0, most = 0;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const double moved = x[k] - before[k];
+    change += weights[k] * moved * moved;
+    size += weights[k] * x[k] * x[k];
+    most = std::max(most, std::abs(factors[k] * moved));
+  }
+  sums_.insert(sums_.end(), {change, size, most});
+}
+
+void RowWorker::add_total(const Space& space, Take& take) {
+  const auto count = take.next<int>();
+  double total = 0;
+  for (int k = 0; k < count; ++k) {
+    const double* x = at(take.next<int>());
+    for (std::size_t row = 0; row < space.rows(); ++row) total += x[row];
+  }
+  sums_.push_back(total);
+}
+
+}  // namespace buckens::linalg
