@@ -37,10 +37,10 @@ struct Deviations {
     for (std::size_t b = 0; b < fast.bodies.size(); ++b) {
       const model::BodyState& x = fast.bodies[b];
       const model::BodyState& y = slow.bodies[b];
-      d.add(x.d, y.d);
-      d_rate.add(x.d_dot, y.d_dot);
-      d_acceleration.add(x.d_ddot, y.d_ddot);
-      d_acceleration.add(x.d_alg, y.d_alg);
+      d.add(x.d.whole(), y.d.whole());
+      d_rate.add(x.d_dot.whole(), y.d_dot.whole());
+      d_acceleration.add(x.d_ddot.whole(), y.d_ddot.whole());
+      d_acceleration.add(x.d_alg.whole(), y.d_alg.whole());
       p.add(x.frame.X_WB.p, y.frame.X_WB.p);
       v.add(x.frame.v, y.frame.v);
       w.add(x.frame.w, y.frame.w);

@@ -31,10 +31,11 @@ test::Start tumbling(const model::Model& model) {
     body.frame.w << 2, 1.5, -1;
     body.frame.v << 0.3, -0.2, 0.5;
     // Some motion in every nodal variable; rigid motion is taken out.
-    for (Eigen::Index k = 0; k < body.d_dot.size(); ++k) {
-      body.d_dot[k] = 0.3 * std::sin(1.0 + 3.0 * static_cast<double>(k));
+    linalg::Vector& d_dot = body.d_dot.change();
+    for (Eigen::Index k = 0; k < d_dot.size(); ++k) {
+      d_dot[k] = 0.3 * std::sin(1.0 + 3.0 * static_cast<double>(k));
     }
-    model.bodies[0].flexible->sieve.apply(body.d_dot);
+    model.bodies[0].flexible->sieve.apply(d_dot);
   });
 }
 

@@ -76,7 +76,7 @@ dynamics::BodyMotion MonolithicStepper::Part::motion(double weight, bool correct
   out.frame.w = rate.head<3>();
   out.frame.v = rate.tail<3>();
   if (!is_flexible()) return out;
-  Vector d = before->d + weight * delta;
+  Vector d = before->d.whole() + weight * delta;
   if (shifted) d += nodal_history.offset;
   if (corrected) d += eta;
   out.y = body.flexible->rows * d;

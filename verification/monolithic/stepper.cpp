@@ -101,7 +101,7 @@ void MonolithicStepper::start(const model::State& state) {
       part.coupling = dynamics::evaluate_coupling(part.body, s.terms, s.d, s.d_dot, s.d_ddot,
                                                   s.frame.w, s.w_dot);
     }
-    Vector d = s.d + scheme_.weight * part.delta;
+    Vector d = s.d.whole() + scheme_.weight * part.delta;
     if (scheme_.has_offset()) d += part.nodal_history.offset;
     part.set_moments(d, scheme_.mean_rate * part.delta + part.nodal_history.mean_velocity);
     z_.segment(part.nodal, s.d.size()) = part.delta;
@@ -145,7 +145,7 @@ void MonolithicStepper::predict(double t) {
 
 void MonolithicStepper::update_coupling(Part& part) {
   if (!part.is_flexible()) return;
-  Vector d = part.before->d + scheme_.weight * part.delta;
+  Vector d = part.before->d.whole() + scheme_.weight * part.delta;
   if (scheme_.weight == 1.0) d += part.eta;
   if (scheme_.has_offset()) d += part.nodal_history.offset;
   const Vector6 w = scheme_.mean_rate * part.u + part.frame_history.mean_velocity;
@@ -168,11 +168,11 @@ void MonolithicStepper::body_residual(std::size_t b, Vector& r) const {
       part.basis.transpose() * (scheme_.force * (inertia - forces_.frame[b]));
   if (!part.is_flexible()) return;
   const body::FlexiblePart& mesh = *part.body.flexible;
-  Vector load = -(mesh.fe.M * part.nodal_history.acceleration) - mesh.fe.K * part.before->d;
+  Vector load = -(mesh.fe.M * part.nodal_history.acceleration) - mesh.fe.K * part.before->d.whole();
   if (scheme_.has_offset()) load -= mesh.fe.K * part.nodal_history.offset;
   if (mesh.is_damped()) load -= mesh.C * part.nodal_history.mean_velocity;
   load += mesh.rows.topRows(mesh.num_interface_rows).transpose() * forces_.interface[b];
-  if (part.before->terms.have_load()) load += part.coupling.load;
+  if (part.before->terms.have_load()) load += part.coupling.load.whole();
   load +=
       mesh.invariants.centrifugal_patterns() * dynamics::centrifugal_weights(part.before->terms, w);
   r.segment(part.nodal, load.size()) -= scheme_.force * load;
@@ -289,11 +289,11 @@ model::State MonolithicStepper::next_state(const model::State& state) const {
     s.v_alg = scheme_.algorithmic(old.v_dot, old.v_alg, s.v_dot);
     s.terms = old.terms;
     if (!part.is_flexible()) continue;
-    s.d = old.d + part.delta + part.eta;
+    s.d = old.d.whole() + part.delta + part.eta;
     s.d_dot = scheme_.end_rate * part.delta + part.nodal_history.velocity;
     s.d_ddot = scheme_.carried_acceleration<Vector>(
         old.d_ddot, scheme_.acceleration_rate * part.delta + part.nodal_history.acceleration);
-    s.d_alg = scheme_.algorithmic(old.d_ddot, old.d_alg, s.d_ddot);
+    s.d_alg = scheme_.algorithmic<Vector>(old.d_ddot, old.d_alg, s.d_ddot);
     s.coupling = part.coupling;
     s.coupling.t = scheme_.evaluation_time(state.t);
     s.coupling_before = old.coupling;

@@ -55,10 +55,10 @@ void vibrate(const model::Model& model, model::State& state) {
   const auto& dofs = model.bodies[0].flexible->fe.dofs.node_dofs;
   for (const auto& [node, sign] : {std::pair(0, 1.0), std::pair(1, -1.0)}) {
     const auto& dof = dofs[static_cast<std::size_t>(node)];
-    s.d_dot[dof[0]] = -0.5 * sign;
-    s.d_dot[dof[5]] = 0.8 * sign;
+    s.d_dot.change()[dof[0]] = -0.5 * sign;
+    s.d_dot.change()[dof[5]] = 0.8 * sign;
   }
-  model.bodies[0].flexible->sieve.apply(s.d_dot);
+  model.bodies[0].flexible->sieve.apply(s.d_dot.change());
 }
 
 test::Start flying(const model::Model& model) {

@@ -65,7 +65,7 @@ ControlledRun compared_run(const model::Model& model, const test::Start& start, 
     // Longest steps end at the instants, so that shorter ones meet them exactly.
     const double instant = duration * static_cast<double>(next + 1) / kInstants;
     if (after.t < instant - 1e-9 * duration) return;
-    error = std::max(error, (after.bodies[0].d - exact[next]).cwiseAbs().maxCoeff());
+    error = std::max(error, (after.bodies[0].d.whole() - exact[next]).cwiseAbs().maxCoeff());
     largest = std::max(largest, exact[next].cwiseAbs().maxCoeff());
     ++next;
   });

@@ -127,7 +127,8 @@ double error_in_tolerances(const model::Model& model, double duration, double to
     out = std::max(out, (x.frame.X_WB.p - y.frame.X_WB.p).norm() / model.length);
     out = std::max(out, x.frame.X_WB.q.angularDistance(y.frame.X_WB.q));
     if (y.d.size() > 0) {
-      out = std::max(out, (x.d - y.d).cwiseAbs().maxCoeff() / y.d.cwiseAbs().maxCoeff());
+      out = std::max(out, (x.d.whole() - y.d.whole()).cwiseAbs().maxCoeff() /
+                              y.d.whole().cwiseAbs().maxCoeff());
     }
   }
   return out / tolerance;

@@ -31,22 +31,22 @@ void evaluate_coupling(const body::Body& body, const body::CouplingTerms& terms,
                        const linalg::CommonTable* common) {
   out.t = 0;
   out.moments = {};
-  out.load.resize(terms.have_load() ? d.size() : 0);
+  Vector& load = out.load.overwrite(terms.have_load() ? d.size() : 0);
   body::DeformationWeights weights;
   if (body.is_flexible() && terms.have_load()) {
     weights = body::DeformationWeights::of_motion(w, w_dot, terms);
   }
-  if (weights.are_zero()) out.load.setZero();
+  if (weights.are_zero()) load.setZero();
   if (!body.is_flexible()) return;
   const body::FlexiblePart& part = *body.flexible;
   if (terms.quad_ref || !weights.are_zero()) {
     const body::DeformedMoments moments = body::evaluate_deformation(
-        part.fe.shape, d, d_dot, d_ddot, weights, out.load, pool, common, true);
+        part.fe.shape, d, d_dot, d_ddot, weights, load, pool, common, true);
     if (terms.quad_ref) out.moments = moments;
   }
   if (!terms.jvar) out.moments.J.setZero();
   if (!terms.cor_ref) out.moments.J_dot.setZero();
-  if (terms.stiffening && part.geometric) out.load += part.geometric->load(d);
+  if (terms.stiffening && part.geometric) load += part.geometric->load(d);
 }
 
 body::DeformedMoments frame_moments(const body::Body& body, const body::CouplingTerms& terms,
@@ -89,13 +89,15 @@ void extrapolate(const model::BodyState& state, int history, double t, model::Co
     out.moments.l += weights[k] * moments.l;
     out.moments.l_dot += weights[k] * moments.l_dot;
   }
-  out.load.resize(known[0]->load.size());
-  const linalg::RowParts rows(out.load.size());
+  std::array<const Vector*, 3> known_loads{};
+  for (std::size_t k = 0; k < count; ++k) known_loads[k] = &known[k]->load.whole();
+  Vector& whole = out.load.overwrite(known_loads[0]->size());
+  const linalg::RowParts rows(whole.size());
   rows.for_pieces(pool, [&](int /*part*/, Eigen::Index first, Eigen::Index size) {
-    auto load = out.load.segment(first, size);
-    load = weights[0] * known[0]->load.segment(first, size);
+    auto load = whole.segment(first, size);
+    load = weights[0] * known_loads[0]->segment(first, size);
     for (std::size_t k = 1; k < count; ++k) {
-      load += weights[k] * known[k]->load.segment(first, size);
+      load += weights[k] * known_loads[k]->segment(first, size);
     }
   });
   out.t = t;

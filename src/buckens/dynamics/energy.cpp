@@ -19,7 +19,7 @@ body::DeformedMoments inertia(const body::Body& body, const model::BodyState& st
   if (!body.is_flexible() || inertial == body::CouplingTerms::none()) return out;
   const auto& invariants = body.flexible->invariants;
   if (inertial == body::CouplingTerms::first_order()) {
-    out.J += invariants.linear_inertia(invariants.pattern_values(state.d));
+    out.J += invariants.linear_inertia(invariants.pattern_values(state.d.whole()));
     return out;
   }
   out.J = invariants.rotary_inertia(state.d);
@@ -40,12 +40,13 @@ OfDeformation energy_of_deformation(const body::Body& body, const model::BodySta
   linalg::Vector momenta, forces;
   // The motion of a quasi-static body does no work on its deformation.
   if (part.is_quasi_static) {
-    linalg::multiply({{&part.fe.M, &s.d_dot, &momenta}});
+    linalg::multiply({{&part.fe.M, &s.d_dot.whole(), &momenta}});
   } else {
-    linalg::multiply({{&part.fe.M, &s.d_dot, &momenta}, {&part.fe.K, &s.d, &forces}});
-    out.strain = 0.5 * s.d.dot(forces);
+    linalg::multiply(
+        {{&part.fe.M, &s.d_dot.whole(), &momenta}, {&part.fe.K, &s.d.whole(), &forces}});
+    out.strain = 0.5 * s.d.whole().dot(forces);
   }
-  out.kinetic = 0.5 * s.d_dot.dot(momenta);
+  out.kinetic = 0.5 * s.d_dot.whole().dot(momenta);
   return out;
 }
 

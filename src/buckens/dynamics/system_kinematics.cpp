@@ -83,8 +83,8 @@ void motions_of(const model::Model& model, const model::State& state,
     out[k].frame = s.frame;
     if (!model.bodies[k].is_flexible()) continue;
     const auto& rows = model.bodies[k].flexible->rows;
-    out[k].y.noalias() = rows * s.d;
-    out[k].y_dot.noalias() = rows * s.d_dot;
+    out[k].y.noalias() = rows * s.d.whole();
+    out[k].y_dot.noalias() = rows * s.d_dot.whole();
   }
 }
 

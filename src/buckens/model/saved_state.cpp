@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -22,7 +23,7 @@ void visit_coupling(const base::SaveVisit& visit, Eigen::Index n, Coupling& coup
   visit.fixed("J_dot", coupling.moments.J_dot);
   visit.fixed("l", coupling.moments.l);
   visit.fixed("l_dot", coupling.moments.l_dot);
-  visit.vector_or_none("load", coupling.load, n);
+  visit_nodal(visit, "load", n, true, coupling.load);
 }
 
 void visit_body(const base::SaveVisit& visit, const body::Body& body, int history, BodyState& s) {
@@ -36,10 +37,10 @@ void visit_body(const base::SaveVisit& visit, const body::Body& body, int histor
   visit.fixed("v_alg", s.v_alg);
   if (!body.is_flexible()) return;
   const Eigen::Index n = body.num_dofs();
-  visit.vector("d", s.d, n);
-  visit.vector("d_dot", s.d_dot, n);
-  visit.vector("d_ddot", s.d_ddot, n);
-  visit.vector("d_alg", s.d_alg, n);
+  visit_nodal(visit, "d", n, false, s.d);
+  visit_nodal(visit, "d_dot", n, false, s.d_dot);
+  visit_nodal(visit, "d_ddot", n, false, s.d_ddot);
+  visit_nodal(visit, "d_alg", n, false, s.d_alg);
   visit_saved(visit.inside("terms"), s.terms);
   visit_coupling(visit.inside("coupling"), n, s.coupling);
   visit_coupling(visit.inside("coupling_before"), n, s.coupling_before);
@@ -158,6 +159,14 @@ void visit_memory(const base::SaveVisit& visit, const Model& model, RowMemory& m
 }
 
 }  // namespace
+
+void visit_nodal(const base::SaveVisit& visit, const std::string& name, Eigen::Index n,
+                 bool may_be_empty, linalg::NodalVector& value) {
+  // Saving changes nothing, but asks for a vector that could be changed.
+  linalg::Vector numbers = visit.is_restoring() ? linalg::Vector() : value.whole();
+  may_be_empty ? visit.vector_or_none(name, numbers, n) : visit.vector(name, numbers, n);
+  if (visit.is_restoring()) value = std::move(numbers);
+}
 
 void visit_pairs(const base::SaveVisit& visit, const Model& model, bool are_rigid,
                  std::vector<NearPair>& near) {

@@ -6,6 +6,7 @@
 
 #include "buckens/body/body.h"
 #include "buckens/joints/joint_coordinate.h"
+#include "buckens/linalg/nodal_vector.h"
 #include "buckens/model/model.h"
 
 namespace buckens::model {
@@ -15,8 +16,9 @@ namespace buckens::model {
 struct Coupling {
   double t = 0;                   ///< the instant [s]
   body::DeformedMoments moments;  ///< only what is quadratic in d: J₂, J̇₂, l, l̇
-  linalg::Vector load;  ///< nodal, n; without the centrifugal load of the undeformed body [N, N m];
-                        ///< empty if the level keeps none
+  /// Nodal, n; without the centrifugal load of the undeformed body [N, N m]; empty if the level
+  /// keeps none.
+  linalg::NodalVector load;
 };
 
 /// Motion of a body at time t, sufficient for a bit-identical continuation.
@@ -26,7 +28,7 @@ struct BodyState {
   Eigen::Vector3d v_dot = Eigen::Vector3d::Zero();  ///< world axes [m/s²]
   Eigen::Vector3d w_alg = Eigen::Vector3d::Zero();  ///< algorithmic accelerations of the frame
   Eigen::Vector3d v_alg = Eigen::Vector3d::Zero();
-  linalg::Vector d, d_dot, d_ddot, d_alg;                ///< nodal variables, n each, body axes
+  linalg::NodalVector d, d_dot, d_ddot, d_alg;           ///< nodal variables, n each, body axes
   body::CouplingTerms terms;                             ///< kept by this body at present
   Coupling coupling, coupling_before, coupling_earlier;  ///< at this and the two previous steps
 };

@@ -48,7 +48,7 @@ MarkerObservation observe_marker(const Observation& now, const model::MarkerId& 
   const body::Marker& marker = body.markers[static_cast<std::size_t>(id.marker)];
   Vector3d relative = Vector3d::Zero();
   if (marker.follows_mesh()) {
-    relative = body.flexible->rows.middleRows(marker.translation_row, 3) * s.d_ddot;
+    relative = body.flexible->rows.middleRows(marker.translation_row, 3) * s.d_ddot.whole();
   }
   const Vector3d bias = dynamics::evaluate_bias(now.model, id, now.motions).a;
   out.acceleration = s.v_dot + kinematics.R_WB * (s.w_dot.cross(kinematics.z) + relative) + bias;

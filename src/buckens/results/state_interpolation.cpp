@@ -43,9 +43,9 @@ model::State interpolate(const model::State& before, const model::State& after, 
     z.frame.w = linear(x.frame.w, y.frame.w, s);
     z.v_dot = linear(x.v_dot, y.v_dot, s);
     z.w_dot = linear(x.w_dot, y.w_dot, s);
-    z.d = hermite(x.d, x.d_dot, y.d, y.d_dot, s, h);
-    z.d_dot = linear(x.d_dot, y.d_dot, s);
-    z.d_ddot = linear(x.d_ddot, y.d_ddot, s);
+    z.d = hermite(x.d.whole(), x.d_dot.whole(), y.d.whole(), y.d_dot.whole(), s, h);
+    z.d_dot = linear(x.d_dot.whole(), y.d_dot.whole(), s);
+    z.d_ddot = linear(x.d_ddot.whole(), y.d_ddot.whole(), s);
   }
   out.lambda = multipliers_at(before, after, t);
   out.lambda_time = t;

@@ -62,13 +62,15 @@ void BodyStepOperator::row_values(const model::BodyState& state, Vector& y, Vect
     return;
   }
   for (Vector* values : {&y, &y_dot, &y_ddot, &y_alg}) values->setZero(num_rows());
+  const Vector &d = state.d.whole(), &d_dot = state.d_dot.whole();
+  const Vector &d_ddot = state.d_ddot.whole(), &d_alg = state.d_alg.whole();
   for (int row = 0; row < num_interface_rows(); ++row) {
     double sum = 0, sum_dot = 0, sum_ddot = 0, sum_alg = 0;
     for (InterfaceRows::InnerIterator it(N_, row); it; ++it) {
-      sum += it.value() * state.d[it.col()];
-      sum_dot += it.value() * state.d_dot[it.col()];
-      sum_ddot += it.value() * state.d_ddot[it.col()];
-      sum_alg += it.value() * state.d_alg[it.col()];
+      sum += it.value() * d[it.col()];
+      sum_dot += it.value() * d_dot[it.col()];
+      sum_ddot += it.value() * d_ddot[it.col()];
+      sum_alg += it.value() * d_alg[it.col()];
     }
     y[row] = sum;
     y_dot[row] = sum_dot;
@@ -76,7 +78,7 @@ void BodyStepOperator::row_values(const model::BodyState& state, Vector& y, Vect
     y_alg[row] = sum_alg;
   }
   if (has_patterns_ && state.terms.use_patterns()) {
-    const Past past = {&state.d, &state.d_dot, &state.d_ddot, &state.d_alg};
+    const Past past = {&d, &d_dot, &d_ddot, &d_alg};
     const PatternValues values =
         nodal_ ? nodal_values(*nodal_, past, pool) : dense_values(stored_patterns(), past, pool);
     y.tail<6>() = values.col(0);

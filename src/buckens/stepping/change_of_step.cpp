@@ -12,7 +12,9 @@ void rescale_algorithmic(model::State& state, const Scheme& scheme) {
   for (model::BodyState& s : state.bodies) {
     s.w_alg = s.w_dot + ratio * (s.w_alg - s.w_dot);
     s.v_alg = s.v_dot + ratio * (s.v_alg - s.v_dot);
-    if (s.d.size() > 0) s.d_alg = s.d_ddot + ratio * (s.d_alg - s.d_ddot);
+    if (s.d.size() == 0) continue;
+    const linalg::Vector &d_ddot = s.d_ddot.whole(), &d_alg = s.d_alg.whole();
+    s.d_alg = d_ddot + ratio * (d_alg - d_ddot);
   }
 }
 

@@ -57,9 +57,9 @@ int LaggedCoupling::known_instants(const model::BodyState& s, int history) const
   if (undeformed.info() != Eigen::Success) return history;
   if (undeformed.solve(s.coupling.moments.J).trace() < kHardlyDeformed) return history;
   const body::InertiaInvariants& invariants = body_->flexible->invariants;
-  const body::DeformedMoments all =
-      dynamics::frame_moments(*body_, s.terms, s.coupling.moments, invariants.pattern_values(s.d),
-                              invariants.pattern_values(s.d_dot));
+  const body::DeformedMoments all = dynamics::frame_moments(
+      *body_, s.terms, s.coupling.moments, invariants.pattern_values(s.d.whole()),
+      invariants.pattern_values(s.d_dot.whole()));
   const Eigen::LLT<Eigen::Matrix3d> whole(all.J);
   if (whole.info() != Eigen::Success) return history;
   const double share = whole.solve(s.coupling.moments.J).trace();
@@ -68,14 +68,16 @@ int LaggedCoupling::known_instants(const model::BodyState& s, int history) const
 
 LaggedCoupling::Sizes LaggedCoupling::compare_loads(TaskPool* pool) {
   std::array<Sizes, linalg::RowParts::kMostParts> parts;
+  const linalg::Vector& evaluated = evaluated_.load.whole();
+  const linalg::Vector& used = used_.load.whole();
   rows_.for_pieces(pool, [&](int part, Index first, Index size) {
     Sizes& sizes = parts[static_cast<std::size_t>(part)];
     const auto weight = inverse_diagonal_.segment(first, size);
-    const auto load = evaluated_.load.segment(first, size);
+    const auto load = evaluated.segment(first, size);
     // Where the cache holds it: few steps need the change itself.
     std::array<double, linalg::RowParts::kPiece> room;
     Eigen::Map<linalg::Vector> change(room.data(), size);
-    change = load - used_.load.segment(first, size);
+    change = load - used.segment(first, size);
     sizes.change += change.cwiseAbs2().dot(weight);
     sizes.load += load.cwiseAbs2().dot(weight);
     const auto moved = moved_per_load_.size() > 0 ? moved_per_load_.segment(first, size) : weight;

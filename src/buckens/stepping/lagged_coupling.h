@@ -63,7 +63,7 @@ class LaggedCoupling {
   const model::Coupling& used() const { return used_; }
   model::Coupling& evaluated() { return evaluated_; }
   /// Load that take_over() has replaced.
-  const linalg::Vector& load_before() const { return evaluated_.load; }
+  const linalg::Vector& load_before() const { return evaluated_.load.whole(); }
   /// Size of the whole coupling load, √(‖F‖² + ‖ĉ‖²), at the last evaluation.
   double load_size() const { return load_size_; }
   /// 1/K̂ᵢᵢ, which makes the norm; empty if there are no loads.

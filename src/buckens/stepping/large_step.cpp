@@ -61,10 +61,11 @@ void LargeStep::form_right_side(const model::BodyState& before, const Vector& lo
   const bool is_damped_otherwise = inertial.is_damped() && !inertial.is_proportional();
   scratch_.resize(rows_.rows());
   if (is_damped_otherwise) damped_.resize(rows_.rows());
+  const Start start(before);
   rows_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
-    scratch_.segment(first, size) = combination(with_mass_, before, first, size);
+    scratch_.segment(first, size) = combination(with_mass_, start, first, size);
     if (!is_damped_otherwise) return;
-    damped_.segment(first, size) = combination(with_damping_, before, first, size);
+    damped_.segment(first, size) = combination(with_damping_, start, first, size);
   });
   const double c_theta = op_->scheme().force * op_->scheme().weight;
   const auto add_load = [&](int /*part*/, Index first, Index size) {
@@ -99,7 +100,7 @@ void LargeStep::form_right_side_of_change(const Vector& before, const Vector& af
 void LargeStep::sieve_side() { op_->sieve().apply_transposed(side()); }
 
 void LargeStep::estimate_solution(const model::BodyState& before, Vector& x) {
-  x = combination(estimate_, before, 0, rows_.rows());
+  x = combination(estimate_, Start(before), 0, rows_.rows());
   const linalg::Matrix& G = op_->responses();
   if (G.cols() == 0) return;
   if (loads_of_N_.size() == 0) {
@@ -168,13 +169,14 @@ void LargeStep::take_solution(const model::BodyState& before, VectorXd& y_free, 
   // of the whole.
   const bool has_both = op_->nodal() != nullptr && !(is_first_ && at_evaluation);
   clear_sums();
+  const Start start(before);
   rows_.for_pieces(pool, [&](int part, Index first, Index size) {
     PartSums& sums = sums_[static_cast<std::size_t>(part)];
     auto x = free_.segment(first, size);
     if (is_first_) {
-      if (adds) x += combination(beside_solution_, before, first, size);
+      if (adds) x += combination(beside_solution_, start, first, size);
       if (at_evaluation) add_rigid(first, size, free_, sums);
-      if (!holds_at_end_) x = x / scheme.weight + combination(from_start_, before, first, size);
+      if (!holds_at_end_) x = x / scheme.weight + combination(from_start_, start, first, size);
       if (!at_evaluation) add_rigid(first, size, free_, sums);
     } else {
       add_rigid(first, size, change_, sums);
@@ -202,8 +204,7 @@ void LargeStep::take_solution(const model::BodyState& before, VectorXd& y_free, 
   y_free.head(used).noalias() -= op_->rigid_row_values().topRows(used) * rigid_;
 }
 
-void LargeStep::form_end(const model::BodyState& before, Index first, Index size,
-                         model::BodyState& after) {
+void LargeStep::form_end(const Start& before, Index first, Index size, const End& after) {
   const Scheme& scheme = op_->scheme();
   const auto increment = after.d_alg.segment(first, size);
   if (op_->is_quasi_static()) {
@@ -233,7 +234,8 @@ void LargeStep::form_end(const model::BodyState& before, Index first, Index size
 void LargeStep::complete(const model::BodyState& before, const VectorXd& load,
                          const VectorXd& correction, model::BodyState& after, TaskPool* pool) {
   const Index n = rows_.rows();
-  for (Vector* v : {&after.d, &after.d_dot, &after.d_ddot, &after.d_alg}) v->resize(n);
+  const Start start(before);
+  const End end(after, n);
   if (!holds_at_end_) {
     for (Vector* v : {&d_e_, &rate_e_, &acceleration_e_}) v->resize(n);
   }
@@ -244,22 +246,22 @@ void LargeStep::complete(const model::BodyState& before, const VectorXd& load,
   const bool corrects = !correction.isZero(0.0);
   clear_sums();
   op_->common().for_pieces(rows_, pool, [&](int part, Index first, Index size) {
-    auto increment = after.d_alg.segment(first, size);  // until it is assigned
-    increment = free_.segment(first, size) - before.d.segment(first, size);
+    auto increment = end.d_alg.segment(first, size);  // until it is assigned
+    increment = free_.segment(first, size) - start.d.segment(first, size);
     if (nodal != nullptr) {
-      nodal->subtract(first, size, motion, after.d_alg);
+      nodal->subtract(first, size, motion, end.d_alg);
     } else if (rigid_.size() > 0) {
       increment.noalias() -= Phi.middleRows(first, size) * rigid_;
     }
     op_->add_answer(load, first, increment);
     if (corrects) op_->add_correction_answer(correction, first, increment);
-    auto d = after.d.segment(first, size);
-    d = before.d.segment(first, size) + increment;
+    auto d = end.d.segment(first, size);
+    d = start.d.segment(first, size) + increment;
     if (corrects) op_->add_correction(correction, first, d);
-    form_end(before, first, size, after);
+    form_end(start, first, size, end);
     // Not finite as soon as one of them is not.
     sums_[static_cast<std::size_t>(part)].total +=
-        d.sum() + after.d_dot.segment(first, size).sum() + after.d_ddot.segment(first, size).sum();
+        d.sum() + end.d_dot.segment(first, size).sum() + end.d_ddot.segment(first, size).sum();
   });
   is_finite_ = true;
   for (const PartSums& sums : sums_) is_finite_ = is_finite_ && std::isfinite(sums.total);

@@ -60,13 +60,13 @@ class LargeStep {
 
   /// State where the equations of motion hold, after complete(): `after` itself at the end.
   const linalg::Vector& d_e(const model::BodyState& after) const {
-    return holds_at_end_ ? after.d : d_e_;
+    return holds_at_end_ ? after.d.whole() : d_e_;
   }
   const linalg::Vector& rate_e(const model::BodyState& after) const {
-    return holds_at_end_ ? after.d_dot : rate_e_;
+    return holds_at_end_ ? after.d_dot.whole() : rate_e_;
   }
   const linalg::Vector& acceleration_e(const model::BodyState& after) const {
-    return holds_at_end_ ? after.d_ddot : acceleration_e_;
+    return holds_at_end_ ? after.d_ddot.whole() : acceleration_e_;
   }
   /// Whether all numbers at the end of the step are finite.
   bool is_finite() const { return is_finite_; }
@@ -94,8 +94,21 @@ class LargeStep {
     linalg::NodeSums nodal_rigid, nodal_patterns;
     double total = 0;
   };
-  static auto combination(const Weights& w, const model::BodyState& s, Eigen::Index first,
-                          Eigen::Index size) {
+  /// Nodal variables of a state, asked for once before the pieces are worked on.
+  struct Start {
+    explicit Start(const model::BodyState& s)
+        : d(s.d), d_dot(s.d_dot), d_ddot(s.d_ddot), d_alg(s.d_alg) {}
+    const linalg::Vector &d, &d_dot, &d_ddot, &d_alg;
+  };
+  struct End {
+    End(model::BodyState& s, Eigen::Index n)
+        : d(s.d.overwrite(n)),
+          d_dot(s.d_dot.overwrite(n)),
+          d_ddot(s.d_ddot.overwrite(n)),
+          d_alg(s.d_alg.overwrite(n)) {}
+    linalg::Vector &d, &d_dot, &d_ddot, &d_alg;
+  };
+  static auto combination(const Weights& w, const Start& s, Eigen::Index first, Eigen::Index size) {
     return w.d * s.d.segment(first, size) + w.rate * s.d_dot.segment(first, size) +
            w.acceleration * s.d_ddot.segment(first, size) +
            w.algorithmic * s.d_alg.segment(first, size);
@@ -104,8 +117,7 @@ class LargeStep {
   void add_rigid(Eigen::Index first, Eigen::Index size, const linalg::Vector& x, PartSums& sums);
   void add_patterns(Eigen::Index first, Eigen::Index size, PartSums& sums);
   void estimate_solution(const model::BodyState& before, linalg::Vector& x);
-  void form_end(const model::BodyState& before, Eigen::Index first, Eigen::Index size,
-                model::BodyState& after);
+  void form_end(const Start& before, Eigen::Index first, Eigen::Index size, const End& after);
 
   BodyStepOperator* op_;
   linalg::RowParts rows_;

@@ -112,11 +112,11 @@ LocalError::Difference LocalError::second_difference(double t) const {
 double LocalError::difference_of(std::size_t b, const model::BodyState& end,
                                  const Difference& f) const {
   // The first step leaves out d̈: where a load sets in, that of a stiff vibration says nothing.
-  Vector sum = f.position[0] * end.d;
+  Vector sum = f.position[0] * end.d.whole();
   for (std::size_t k = 0; k + 1 < f.position.size(); ++k) {
-    sum += f.position[k + 1] * past_[k].d[b];
+    sum += f.position[k + 1] * past_[k].d[b].whole();
   }
-  if (f.rate != 0.0) sum += f.rate * start_.d_dot[b];
+  if (f.rate != 0.0) sum += f.rate * start_.d_dot[b].whole();
   return size_of(b, sum);
 }
 

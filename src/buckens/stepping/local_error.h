@@ -58,12 +58,12 @@ class LocalError {
   struct Point {
     double t = 0;
     std::vector<spatial::Pose> poses;
-    std::vector<linalg::Vector> d;
+    std::vector<linalg::NodalVector> d;
   };
   /// Rates at the instant where the motion began.
   struct Start {
     std::vector<Eigen::Vector3d> v, w, v_dot, w_dot;
-    std::vector<linalg::Vector> d_dot;
+    std::vector<linalg::NodalVector> d_dot;
   };
   /// Factors of positions (first the candidate, then the past from young to old) and start rates.
   struct Difference {

@@ -26,10 +26,10 @@ Terms evaluate(const body::Body& body, const model::BodyState& s, const body::Co
   Terms out;
   out.load.setZero(s.d.size());
   invariants.add_centrifugal_load(dynamics::centrifugal_weights(kept, s.frame.w), out.load);
-  if (kept.have_load()) out.load += coupling.load;
+  if (kept.have_load()) out.load += coupling.load.whole();
   const body::DeformedMoments moments =
-      dynamics::frame_moments(body, kept, coupling.moments, invariants.pattern_values(s.d),
-                              invariants.pattern_values(s.d_dot));
+      dynamics::frame_moments(body, kept, coupling.moments, invariants.pattern_values(s.d.whole()),
+                              invariants.pattern_values(s.d_dot.whole()));
   out.torque =
       dynamics::frame_inertia(body, moments, s.frame.w, s.w_dot, Vector3d::Zero()).head<3>();
   return out;
@@ -58,10 +58,11 @@ double neglected_share(const body::Body& body, const BodyStepOperator& op,
   } else {
     if (part.is_damped()) {
       Vector damping;
-      linalg::multiply({{&part.fe.K, &state.d, &internal}, {&part.C, &state.d_dot, &damping}});
+      linalg::multiply(
+          {{&part.fe.K, &state.d.whole(), &internal}, {&part.C, &state.d_dot.whole(), &damping}});
       internal += damping;
     } else {
-      internal = part.fe.K * state.d;
+      internal = part.fe.K * state.d.whole();
     }
     applied = inertia + internal - used.load;
   }

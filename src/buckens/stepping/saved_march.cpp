@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "buckens/model/saved_state.h"
 #include "buckens/stepping/time_march.h"
 
 namespace buckens::stepping {
@@ -38,11 +39,11 @@ void visit_vectors(const base::SaveVisit& visit, std::size_t count,
 }
 
 void visit_nodal(const base::SaveVisit& visit, const model::Model& model,
-                 std::vector<linalg::Vector>& values) {
+                 std::vector<linalg::NodalVector>& values) {
   values.resize(model.bodies.size());
   for (std::size_t b = 0; b < values.size(); ++b) {
     if (!model.bodies[b].is_flexible()) continue;
-    visit.vector(std::to_string(b), values[b], model.bodies[b].num_dofs());
+    model::visit_nodal(visit, std::to_string(b), model.bodies[b].num_dofs(), false, values[b]);
   }
 }
 

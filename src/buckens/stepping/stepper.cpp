@@ -295,7 +295,10 @@ void Stepper::form_next_state(const model::State& state) {
     s.terms = old.terms;
     if (!flexible_[b]) return;
     // complete() formed the nodal variables; the old buffers are reused in the next step.
-    std::swap(s.coupling, flexible_[b]->coupling.evaluated());
+    model::Coupling& evaluated = flexible_[b]->coupling.evaluated();
+    std::swap(s.coupling, evaluated);
+    // The memory that no state shares from here on is that of the earliest load.
+    evaluated.load.swap(s.coupling_earlier.load);
     s.coupling_before = old.coupling;
     s.coupling_earlier = old.coupling_before;
   });

@@ -52,8 +52,8 @@ void Stepper::keep_before_blows() {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const bool moves = flexible_[b] && !operators_[b]->is_quasi_static();
     if (!moves || !model_.bodies[b].flexible->is_damped()) continue;
-    before_blows_[b].d = next_.bodies[b].d;
-    before_blows_[b].d_dot = next_.bodies[b].d_dot;
+    before_blows_[b].d = next_.bodies[b].d.whole();
+    before_blows_[b].d_dot = next_.bodies[b].d_dot.whole();
   }
 }
 
@@ -69,11 +69,11 @@ void Stepper::add_jump(std::size_t b, const BodyJump& jump, dynamics::BodyMotion
   s.frame.X_WB.q = (s.frame.X_WB.q * undone * spatial::exp_rotation(turned)).normalized();
   motion.frame = s.frame;
   if (!flexible_[b] || operators_[b]->is_quasi_static()) return;
-  add_impulse(b, jump.impulse, s.d_dot);
-  add_impulse(b, jump.impulse_time, s.d);
+  add_impulse(b, jump.impulse, s.d_dot.change());
+  add_impulse(b, jump.impulse_time, s.d.change());
   const InterfaceRows& N = operators_[b]->interface_rows();
-  motion.y.head(jump.impulse.size()) = N.topRows(jump.impulse.size()) * s.d;
-  motion.y_dot.head(jump.impulse.size()) = N.topRows(jump.impulse.size()) * s.d_dot;
+  motion.y.head(jump.impulse.size()) = N.topRows(jump.impulse.size()) * s.d.whole();
+  motion.y_dot.head(jump.impulse.size()) = N.topRows(jump.impulse.size()) * s.d_dot.whole();
 }
 
 void Stepper::filter_algorithmic(model::State& state) {
@@ -82,10 +82,11 @@ void Stepper::filter_algorithmic(model::State& state) {
     if (!flexible_[b] || operators_[b]->is_quasi_static()) continue;
     model::BodyState& s = state.bodies[b];
     BodyStepOperator& op = *operators_[b];
-    op.inertial().multiply_mass(s.d_ddot, s.d_alg, pool_.get());
-    s.d_alg *= scheme_.mass;
-    op.solve_right_side(s.d_alg, pool_.get());
-    op.sieve().apply(s.d_alg);
+    Vector& d_alg = s.d_alg.overwrite(s.d_ddot.size());
+    op.inertial().multiply_mass(s.d_ddot, d_alg, pool_.get());
+    d_alg *= scheme_.mass;
+    op.solve_right_side(d_alg, pool_.get());
+    op.sieve().apply(d_alg);
   }
 }
 
@@ -97,8 +98,8 @@ bool Stepper::take_mean_of_turning(const model::State& before, model::State& aft
     const InertialLoad& inertial = op.inertial();
     if (!inertial.is_damped()) continue;
     has_any = true;
-    Vector& rates = after.bodies[b].d_dot;
-    Vector turning = 0.5 * (rates - before.bodies[b].d_dot);
+    Vector& rates = after.bodies[b].d_dot.change();
+    Vector turning = 0.5 * (rates - before.bodies[b].d_dot.whole());
     for (int k = 0; k < 2; ++k) {
       const Vector load = scheme_.damping * turning;
       if (inertial.is_proportional()) {

@@ -83,13 +83,13 @@ class Accelerations {
       const auto coupling = dynamics::evaluate_coupling(body, s.terms, s.d, s.d_dot, zero,
                                                         s.frame.w, Vector3d::Zero());
       const body::InertiaInvariants& invariants = body.flexible->invariants;
-      bodies_[b].moments =
-          dynamics::frame_moments(body, s.terms, coupling.moments, invariants.pattern_values(s.d),
-                                  invariants.pattern_values(s.d_dot));
+      bodies_[b].moments = dynamics::frame_moments(body, s.terms, coupling.moments,
+                                                   invariants.pattern_values(s.d.whole()),
+                                                   invariants.pattern_values(s.d_dot.whole()));
       J.push_back(bodies_[b].moments.J);
-      Vector load = -(body.flexible->fe.K * s.d);
-      if (body.flexible->is_damped()) load -= body.flexible->C * s.d_dot;
-      if (s.terms.have_load()) load += coupling.load;
+      Vector load = -(body.flexible->fe.K * s.d.whole());
+      if (body.flexible->is_damped()) load -= body.flexible->C * s.d_dot.whole();
+      if (s.terms.have_load()) load += coupling.load.whole();
       invariants.add_centrifugal_load(dynamics::centrifugal_weights(s.terms, s.frame.w), load);
       bodies_[b].nodal_static = mass_solve(body, load);
       bodies_[b].nodal = bodies_[b].nodal_static;

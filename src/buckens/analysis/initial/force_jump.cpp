@@ -41,8 +41,8 @@ void ForceJump::pass(const stepping::Stepper& stepper, model::State& state) {
     for (Eigen::Vector3d* w_dot : {&s.w_dot, &s.w_alg}) *w_dot += change.frame.head<3>();
     for (Eigen::Vector3d* v_dot : {&s.v_dot, &s.v_alg}) *v_dot += change.frame.tail<3>();
     if (change.mesh == nullptr) return;
-    for (linalg::Vector* d_ddot : {&s.d_ddot, &s.d_alg}) {
-      stepper.add_impulse(b, *change.mesh, *d_ddot);
+    for (linalg::NodalVector* d_ddot : {&s.d_ddot, &s.d_alg}) {
+      stepper.add_impulse(b, *change.mesh, d_ddot->change());
     }
   });
 }

@@ -84,8 +84,8 @@ class FrictionStart {
       s.frame.X_WB.q = s.frame.X_WB.q * spatial::exp_rotation(t * s.frame.w);
       s.frame.v += t * s.v_dot;
       s.frame.w += t * s.w_dot;
-      s.d += t * s.d_dot;
-      s.d_dot += t * s.d_ddot;
+      s.d.change() += t * s.d_dot.whole();
+      s.d_dot.change() += t * s.d_ddot.whole();
     }
     const model::Load& load = model_.loads[law.load];
     const auto motions = dynamics::motions_of(model_, moved);

@@ -285,7 +285,8 @@ double project_velocities(const model::Model& model, const dynamics::MassMetric&
         const Vector6 V = motion.frame_motion(b);
         s.frame.w += V.head<3>();
         s.frame.v += V.tail<3>();
-        if (with_mesh && s.d.size() > 0) s.d_dot += metric.H(b) * responses[b].interface_load;
+        if (!with_mesh || s.d.size() == 0) continue;
+        s.d_dot.change() += metric.H(b) * responses[b].interface_load;
       }
       evaluate();
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -44,7 +45,7 @@ Vector deformation(const body::Body& body, const model::BodyState& s,
   part.invariants.add_centrifugal_load(dynamics::centrifugal_weights(s.terms, s.frame.w), load);
   const model::Coupling coupling =
       dynamics::evaluate_coupling(body, s.terms, s.d, s.d_dot, s.d_ddot, s.frame.w, s.w_dot);
-  if (coupling.load.size() > 0) load += coupling.load;
+  if (coupling.load.size() > 0) load += coupling.load.whole();
   return load.cwiseQuotient(part.fe.K.diagonal());
 }
 
@@ -57,7 +58,7 @@ Vector gather(const std::vector<Vector>& lengths, const model::State& state) {
   Eigen::Index at = 0;
   for (std::size_t b = 0; b < lengths.size(); ++b) {
     if (lengths[b].size() == 0) continue;
-    out.segment(at, lengths[b].size()) = state.bodies[b].d.cwiseProduct(lengths[b]);
+    out.segment(at, lengths[b].size()) = state.bodies[b].d.whole().cwiseProduct(lengths[b]);
     at += lengths[b].size();
   }
   return out;
@@ -158,11 +159,12 @@ void settle_accelerations(const model::Model& model, const dynamics::MassMetric&
     for (std::size_t b = 0; b < model.bodies.size(); ++b) {
       if (!is_quasi_static(model.bodies[b])) continue;
       model::BodyState& s = state.bodies[b];
-      const Vector before = s.d;
-      s.d = deformation(model.bodies[b], s, forces.interface[b]);
-      const double size = s.d.cwiseAbs().maxCoeff();
-      const double moved = (s.d - before).cwiseAbs().maxCoeff();
-      const double moved_by = (s.d - before).cwiseProduct(lengths[b]).cwiseAbs().maxCoeff();
+      Vector d = deformation(model.bodies[b], s, forces.interface[b]);
+      const Vector change_of_d = d - s.d.whole();
+      const double size = d.cwiseAbs().maxCoeff();
+      const double moved = change_of_d.cwiseAbs().maxCoeff();
+      const double moved_by = change_of_d.cwiseProduct(lengths[b]).cwiseAbs().maxCoeff();
+      s.d = std::move(d);
       const double share = moved_by > kNoChange * model.length ? moved / size : 0.0;
       if (!(share <= change)) restless = b;
       change = std::max(change, share);

@@ -57,7 +57,7 @@ std::vector<std::string> describe_velocity_changes(const model::BuiltModel& buil
     }
     const linalg::Vector& d = given.bodies[first].d_dot;
     if (whole.is_divided() || d.size() == 0 || !spec.nodal_velocity) continue;
-    const double most = (projected.bodies[first].d_dot - d).cwiseAbs().maxCoeff();
+    const double most = (projected.bodies[first].d_dot.whole() - d).cwiseAbs().maxCoeff();
     const double largest = d.cwiseAbs().maxCoeff();
     if (most <= kNoticed * std::max(largest, speed)) continue;
     out.push_back(

@@ -37,12 +37,12 @@ void DampingWork::start(const model::State& state) { begin_at(state.bodies[index
 
 void DampingWork::begin_at(const model::BodyState& s) {
   if (is_direct_) {
-    rates_ = s.d_dot;
+    rates_ = s.d_dot.whole();
     return;
   }
   power_ = mass_power(s.d_dot);
-  d_ = s.d;
-  elastic_ = body_->flexible->fe.K * s.d;
+  d_ = s.d.whole();
+  elastic_ = body_->flexible->fe.K * s.d.whole();
   last_step_ = 0.0;
   ++products_;
 }
@@ -67,10 +67,10 @@ void DampingWork::find_elastic_load(const model::State& state, const dynamics::F
                                     double h) {
   const body::FlexiblePart& part = *body_->flexible;
   const model::BodyState& s = state.bodies[index_];
-  motion_ = s.d_ddot + part.fe.mass_damping * s.d_dot;
+  motion_ = s.d_ddot.whole() + part.fe.mass_damping * s.d_dot.whole();
   mass_->multiply_mass(motion_, image_);
   now_ = -image_;
-  if (s.terms.have_load()) now_ += s.coupling.load;
+  if (s.terms.have_load()) now_ += s.coupling.load.whole();
   part.invariants.add_centrifugal_load(dynamics::centrifugal_weights(s.terms, s.frame.w), now_);
   const Vector& f = forces.interface[index_];
   for (int row = 0; row < part.num_interface_rows; ++row) {
@@ -95,7 +95,7 @@ double DampingWork::add(const model::State& state, const dynamics::Forces& force
   if (is_direct_) return direct_work(s.d_dot, h);
   const bool is_formed = forms_elastic_load_ || rates == RatesAtEnd::have_jumped;
   if (is_formed) {
-    now_ = body_->flexible->fe.K * s.d;
+    now_ = body_->flexible->fe.K * s.d.whole();
     ++products_;
   } else {
     find_elastic_load(state, forces, h);
@@ -105,7 +105,7 @@ double DampingWork::add(const model::State& state, const dynamics::Forces& force
   power_ = power;
   std::swap(elastic_before_, elastic_);
   std::swap(elastic_, now_);
-  d_ = s.d;
+  d_ = s.d.whole();
   last_step_ = is_formed ? 0.0 : h;
   return work;
 }

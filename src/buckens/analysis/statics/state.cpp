@@ -44,7 +44,7 @@ void set_static_state(const StaticPoint& point, const RestRows& rest, const Stat
     for (Eigen::Vector3d* rate : {&s.frame.w, &s.frame.v, &s.w_dot, &s.v_dot, &s.w_alg, &s.v_alg}) {
       rate->setZero();
     }
-    for (Vector* rate : {&s.d_dot, &s.d_ddot, &s.d_alg}) rate->setZero(s.d.size());
+    s.d_dot = s.d_ddot = s.d_alg = Vector::Zero(s.d.size());
     s.frame.X_WB = point.poses[b];
     if (const ElasticCompliance* compliance = compliances.of_body[b]) {
       s.d = compliance->columns() * balance.forces.interface[b];

@@ -76,7 +76,7 @@ void AtRest::lay_out() {
     // l̇ in the frame equation and the Euler load in that of the mesh.
     const body::CouplingTerms& terms = state_.bodies[b].terms;
     const bool couples = body.is_flexible() && terms.quad_ref && terms.eul_fe;
-    if (couples && state_.bodies[b].d.cwiseAbs().maxCoeff() > 0.0) place.momenta = 3;
+    if (couples && state_.bodies[b].d.whole().cwiseAbs().maxCoeff() > 0.0) place.momenta = 3;
     out_.size += place.size();
     out_.bodies.push_back(place);
   }

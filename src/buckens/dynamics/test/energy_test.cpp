@@ -18,12 +18,13 @@ model::State moving(const model::Model& model) {
   model::BodyState& s = out.bodies[0];
   s.frame.w = {0.3, -0.8, 2.0};
   s.frame.v = {1.0, 0.5, -0.2};
-  for (Eigen::Index k = 0; k < s.d.size(); ++k) {
-    s.d[k] = 0.02 * std::sin(1.0 + 1.3 * static_cast<double>(k));
-    s.d_dot[k] = std::cos(2.1 * static_cast<double>(k));
+  linalg::Vector &d = s.d.change(), &d_dot = s.d_dot.change();
+  for (Eigen::Index k = 0; k < d.size(); ++k) {
+    d[k] = 0.02 * std::sin(1.0 + 1.3 * static_cast<double>(k));
+    d_dot[k] = std::cos(2.1 * static_cast<double>(k));
   }
-  model.bodies[0].flexible->sieve.apply(s.d);
-  model.bodies[0].flexible->sieve.apply(s.d_dot);
+  model.bodies[0].flexible->sieve.apply(d);
+  model.bodies[0].flexible->sieve.apply(d_dot);
   return out;
 }
 

@@ -357,7 +357,7 @@ TEST(ModelBuilder, PlacedStateIsAtRest) {
   ASSERT_EQ(state.bodies.size(), 1U);
   EXPECT_NEAR((state.bodies[0].frame.X_WB.p - Vector3d(0.5, 0, 7)).norm(), 0, 1e-15);
   EXPECT_EQ(state.bodies[0].frame.v, Vector3d::Zero());
-  EXPECT_EQ(state.bodies[0].d, linalg::Vector::Zero(24));
+  EXPECT_EQ(state.bodies[0].d.whole(), linalg::Vector::Zero(24));
   EXPECT_EQ(state.lambda, linalg::Vector::Zero(3));
 }
 

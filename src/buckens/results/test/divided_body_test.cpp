@@ -76,7 +76,8 @@ TEST(DividedBody, ElementsOfAllPartsAreListedInTheOrderOfTheMesh) {
   for (std::size_t n = 0; n < part.flexible->fe.nodes.size(); ++n) {
     if (part.flexible->fe.nodes[n].position.x() < 0.7) node = static_cast<int>(n);
   }
-  r.body(2).d[part.flexible->fe.dofs.node_dofs[static_cast<std::size_t>(node)][0]] = -shift;
+  r.body(2).d.change()[part.flexible->fe.dofs.node_dofs[static_cast<std::size_t>(node)][0]] =
+      -shift;
   r.record();
   const auto forces = r.values("bodies/rod/section_force");
   const double expected = model::test::kE * model::test::kArea * shift * 6.0;

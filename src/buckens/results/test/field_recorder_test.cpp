@@ -93,7 +93,7 @@ TEST(FieldRecorder, NothingIsThereUnlessAskedFor) {
 TEST(FieldRecorder, TensorsOfAUniformStretchAreThoseOfHookesLaw) {
   Fields run(block({FieldQuantity::stress, FieldQuantity::strain, FieldQuantity::von_mises,
                     FieldQuantity::principal_stress, FieldQuantity::strain_energy_density}));
-  run.set(0, stretch, run.state.bodies[0].d);
+  run.set(0, stretch, run.state.bodies[0].d.change());
   run.last = run.recorder.record(run.state);
   const double G = kE / 2.6;
   const double lambda = 2 * G * 0.3 / 0.4;
@@ -123,11 +123,11 @@ TEST(FieldRecorder, MotionIsThatOfTheNodesInTheWorld) {
   s.frame.w = {0.5, -1, 2};
   s.v_dot = {4, 5, 6};
   s.w_dot = {-1, 0.5, 0.25};
-  run.set(0, stretch, s.d);
+  run.set(0, stretch, s.d.change());
   run.set(
-      0, [](const Vector3d& x) { return Vector3d(0.1 * x.y(), 0, 0.2); }, s.d_dot);
+      0, [](const Vector3d& x) { return Vector3d(0.1 * x.y(), 0, 0.2); }, s.d_dot.change());
   run.set(
-      0, [](const Vector3d& x) { return Vector3d(0, 3 * x.z(), 0); }, s.d_ddot);
+      0, [](const Vector3d& x) { return Vector3d(0, 3 * x.z(), 0); }, s.d_ddot.change());
   run.last = run.recorder.record(run.state);
   const int node = 11;
   const Vector3d& at = run.built->model.bodies[0].flexible->fe.nodes[node].position;
@@ -154,7 +154,8 @@ TEST(FieldRecorder, KeepsTheLargestStressOfEachNodeAndItsTime) {
   const auto at = [&](double t, double factor) {
     run.state.t = t;
     run.set(
-        0, [&](const Vector3d& x) { return Vector3d(factor * stretch(x)); }, run.state.bodies[0].d);
+        0, [&](const Vector3d& x) { return Vector3d(factor * stretch(x)); },
+        run.state.bodies[0].d.change());
   };
   at(0, 1);
   run.last = run.recorder.record(run.state);
@@ -208,7 +209,7 @@ TEST(FieldRecorder, DividedBlocksShowTensorsInTheAxesOfTheWhole) {
   divided.d.bodies[0].frames.count = 3;
   Fields one(block({FieldQuantity::displacement, FieldQuantity::stress}));
   Fields three(divided);
-  one.set(0, stretch, one.state.bodies[0].d);
+  one.set(0, stretch, one.state.bodies[0].d.change());
   one.last = one.recorder.record(one.state);
   const spatial::Pose X{{3, -2, 1}, spatial::exp_rotation(Vector3d(0.5, -1.0, 2.0))};
   for (std::size_t b = 0; b < 3; ++b) {
@@ -216,7 +217,7 @@ TEST(FieldRecorder, DividedBlocksShowTensorsInTheAxesOfTheWhole) {
     const Vector3d com = three.built->model.bodies[b].com;
     // The frame of a part follows its mass centre; only the rest is deformation.
     three.set(
-        b, [&](const Vector3d& x) { return Vector3d(stretch(x) - stretch(com)); }, s.d);
+        b, [&](const Vector3d& x) { return Vector3d(stretch(x) - stretch(com)); }, s.d.change());
     s.frame.X_WB.p += stretch(com);
     s.frame.X_WB = X * s.frame.X_WB;
   }
@@ -270,8 +271,8 @@ TEST(FieldRecorder, ReducedBodiesShowTheStressesOfTheirShape) {
   model::BodyState& s = few.state.bodies[0];
   ASSERT_TRUE(few.built->model.bodies[0].flexible->is_reduced());
   for (Eigen::Index k = 0; k < s.d.size(); ++k) {
-    s.d[k] = 1e-6 * static_cast<double>(k + 1);
-    s.d_dot[k] = 1e-4 * static_cast<double>(2 - k);
+    s.d.change()[k] = 1e-6 * static_cast<double>(k + 1);
+    s.d_dot.change()[k] = 1e-4 * static_cast<double>(2 - k);
   }
   one.state.bodies[0].d = few.built->model.bodies[0].flexible->nodal(s.d);
   one.state.bodies[0].d_dot = few.built->model.bodies[0].flexible->nodal(s.d_dot);

@@ -103,7 +103,7 @@ TEST(Recorder, RecordsTheState) {
   run.body().frame.X_WB = {Vector3d(1, 2, 3), spatial::exp_rotation({0, 0, 0.4})};
   run.body().frame.v = {4, 5, 6};
   run.body().frame.w = {7, 8, 9};
-  for (Eigen::Index k = 0; k < 18; ++k) run.body().d[k] = 1e-3 * static_cast<double>(k);
+  for (Eigen::Index k = 0; k < 18; ++k) run.body().d.change()[k] = 1e-3 * static_cast<double>(k);
   run.record();
   EXPECT_EQ(run.last.t, 0.25);
   EXPECT_EQ(run.last.values.size(), run.recorder.layout().num_values());
@@ -128,7 +128,7 @@ TEST(Recorder, PlanarBodiesRecordZerosOutOfThePlane) {
   m.d.planar = spatial::Plane::xy;
   m.beam("rod", {0, 0, 0}, {2, 0, 0}, 2);
   Recorded run(m);
-  run.body().d.setConstant(1e-3);
+  run.body().d.change().setConstant(1e-3);
   run.record();
   const Eigen::VectorXd u = run.values("bodies/rod/displacement");
   ASSERT_EQ(u.size(), 18);

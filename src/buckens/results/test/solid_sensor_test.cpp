@@ -40,7 +40,7 @@ TEST(SolidSensors, UniformStrainGivesTheSameStressEverywhere) {
   const double strain = 1e-4;
   move_solid_nodes(
       run.built->model.bodies[0], [&](const Vector3d& s) { return Vector3d(strain * s.x(), 0, 0); },
-      run.body().d);
+      run.body().d.change());
   run.record();
   // Hindered sideways, the von Mises stress is 2 G ε. Rounding of B d relative to E.
   const double mises = 2 * kShear * strain;
@@ -61,7 +61,7 @@ TEST(SolidSensors, NodesShowTheMeanOfTheElementsAround) {
   move_solid_nodes(
       run.built->model.bodies[0],
       [&](const Vector3d& s) { return Vector3d(0, rate * std::pow(s.x() - 0.2, 2), 0); },
-      run.body().d);
+      run.body().d.change());
   run.record();
   const double at_end = std::sqrt(3.0) * kShear * 2 * rate * 0.15;
   EXPECT_NEAR(run.sensor("all")[0], at_end, 1e-10 * at_end);
@@ -80,7 +80,7 @@ TEST(SolidSensors, DividedBlocksRecordElementsInTheOrderOfTheWhole) {
   Recorded three(divided);
   for (Recorded* run : {&one, &three}) {
     for (std::size_t b = 0; b < run->built->model.bodies.size(); ++b) {
-      move_solid_nodes(run->built->model.bodies[b], field, run->body(b).d);
+      move_solid_nodes(run->built->model.bodies[b], field, run->body(b).d.change());
     }
     run->record();
   }

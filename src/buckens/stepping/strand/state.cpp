@@ -77,8 +77,8 @@ void put(double* at, int row, const std::vector<int>& order, const Vector& value
     entry(at, row + order[i]) = values[static_cast<Index>(i)];
   }
 }
-void take(double* at, int row, const std::vector<int>& order, Vector& values) {
-  values.resize(std::ssize(order));
+void take(double* at, int row, const std::vector<int>& order, linalg::NodalVector& nodal) {
+  Vector& values = nodal.overwrite(std::ssize(order));
   for (std::size_t i = 0; i < order.size(); ++i) {
     values[static_cast<Index>(i)] = entry(at, row + order[i]);
   }

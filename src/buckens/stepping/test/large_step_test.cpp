@@ -70,8 +70,8 @@ TEST(LargeStep, AccelerationsKeepTheDigitsThatTheStepAllows) {
     const model::BodyState end = after_steps(op, start, 10, nullptr);
     // Damping of 1e-4 of the critical one and the step itself change the shape's share only; what
     // is left beside it is rounding.
-    const double share = shape.dot(part.fe.M * end.d_ddot);
-    const Vector rest = end.d_ddot - share * shape;
+    const double share = shape.dot(part.fe.M * end.d_ddot.whole());
+    const Vector rest = end.d_ddot.whole() - share * shape;
     const double noise = std::sqrt(rest.dot(part.fe.M * rest)) / (omega * omega);
     // Positions are rounded to some units in the last place, accelerations to that over (h ω)².
     EXPECT_LE(noise, 1e3 * 2.2e-16 / (h_omega * h_omega)) << h_omega;
@@ -88,19 +88,19 @@ TEST(LargeStep, IsTheSameToTheLastBitWithAnyNumberOfThreads) {
   model::BodyState start;
   const Eigen::Index n = part.num_dofs();
   ASSERT_GT(linalg::RowParts(n).count(), 1);
-  for (Vector* v : {&start.d, &start.d_dot, &start.d_ddot, &start.d_alg}) {
-    v->resize(n);
-    for (Eigen::Index k = 0; k < n; ++k) (*v)[k] = std::sin(static_cast<double>(k));
-    part.sieve.apply(*v);
+  for (linalg::NodalVector* v : {&start.d, &start.d_dot, &start.d_ddot, &start.d_alg}) {
+    Vector& numbers = v->overwrite(n);
+    for (Eigen::Index k = 0; k < n; ++k) numbers[k] = std::sin(static_cast<double>(k));
+    part.sieve.apply(numbers);
   }
   const model::BodyState alone = after_steps(op, start, 3, nullptr);
   for (const int threads : {2, 3}) {
     TaskPool pool(threads);
     const model::BodyState shared = after_steps(op, start, 3, &pool);
-    EXPECT_EQ(shared.d, alone.d);
-    EXPECT_EQ(shared.d_dot, alone.d_dot);
-    EXPECT_EQ(shared.d_ddot, alone.d_ddot);
-    EXPECT_EQ(shared.d_alg, alone.d_alg);
+    EXPECT_EQ(shared.d.whole(), alone.d.whole());
+    EXPECT_EQ(shared.d_dot.whole(), alone.d_dot.whole());
+    EXPECT_EQ(shared.d_ddot.whole(), alone.d_ddot.whole());
+    EXPECT_EQ(shared.d_alg.whole(), alone.d_alg.whole());
   }
 }
 
@@ -118,8 +118,8 @@ TEST(LargeStep, KnowsValuesOfPatternsOfASolidAfterAnySolve) {
     before.d_dot = 0.1 * some(0.7);
     before.d_ddot = 10.0 * some(0.3);
     before.d_alg = 10.0 * some(0.4);
-    for (Vector* v : {&before.d, &before.d_dot, &before.d_ddot, &before.d_alg}) {
-      block->sieve.apply(*v);
+    for (linalg::NodalVector* v : {&before.d, &before.d_dot, &before.d_ddot, &before.d_alg}) {
+      block->sieve.apply(v->change());
     }
     LargeStep step(op);
     const Vector first = 5e3 * some(0.2), second = 4e3 * some(0.5);
@@ -131,7 +131,7 @@ TEST(LargeStep, KnowsValuesOfPatternsOfASolidAfterAnySolve) {
       op.solve_right_side(step.side());
       step.take_solution(before, y, nullptr);
       step.complete(before, nothing, nothing, after, nullptr);
-      const Vector expected = op.row_values(after.d);
+      const Vector expected = op.row_values(after.d.whole());
       // Sums of n products each, of which rigid motion is taken out afterwards.
       EXPECT_LE((y - expected).norm(), 1e-11 * expected.norm())
           << static_cast<int>(method) << solve;
@@ -145,10 +145,10 @@ TEST(LargeStep, TellsNumbersThatAreNone) {
   BodyStepOperator op(part, Scheme(Method::generalized_alpha, 1e-4, 0.9));
   LargeStep step(op);
   model::BodyState before, after;
-  for (Vector* v : {&before.d, &before.d_dot, &before.d_ddot, &before.d_alg}) {
-    v->setZero(part.num_dofs());
+  for (linalg::NodalVector* v : {&before.d, &before.d_dot, &before.d_ddot, &before.d_alg}) {
+    v->overwrite(part.num_dofs()).setZero();
   }
-  before.d_dot[5] = HUGE_VAL;
+  before.d_dot.change()[5] = HUGE_VAL;
   Vector y_free;
   step.form_right_side(before, {}, nullptr);
   op.solve_right_side(step.side());

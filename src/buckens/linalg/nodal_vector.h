@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <utility>
+
+#include "buckens/linalg/matrix_types.h"
+
+namespace buckens::linalg {
+
+/// Numbers of the nodes of a body. Copies of a long vector share its memory until one of them is
+/// written to; short ones are copied, which costs less than counting who shares them.
+///
+/// What whole() returns is valid until the object is written to or destroyed. What change() and
+/// overwrite() return is to be written to before the object is copied: later the copies would
+/// change, too.
+///
+/// Copies of one vector may be used by several threads; one object may be read by several threads
+/// at a time, but written to or copied from only while no other thread writes to it.
+class NodalVector {
+ public:
+  static constexpr Eigen::Index kShared = 64;  ///< with so many numbers copies share memory
+
+  NodalVector() = default;
+  // NOLINTBEGIN(google-explicit-constructor): they are such numbers
+  NodalVector(Vector numbers) { take(std::move(numbers)); }
+  template <class Derived>
+  NodalVector(const Eigen::MatrixBase<Derived>& numbers) : NodalVector(Vector(numbers)) {}
+  // NOLINTEND(google-explicit-constructor)
+  NodalVector(const NodalVector& other) : own_(other.own_), shared_(other.hold()) {}
+  NodalVector(NodalVector&& other) noexcept
+      : own_(std::move(other.own_)), shared_(std::exchange(other.shared_, nullptr)) {}
+  ~NodalVector() { release(); }
+
+  NodalVector& operator=(const NodalVector& other) {  // NOLINT: itself is no harm
+    if (shared_ != other.shared_) {
+      release();
+      shared_ = other.hold();
+    }
+    own_ = other.own_;
+    return *this;
+  }
+  NodalVector& operator=(NodalVector&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  NodalVector& operator=(Vector&& numbers) { return *this = NodalVector(std::move(numbers)); }
+  /// Reuses memory that no copy shares. `numbers` may read this vector as with Eigen.
+  template <class Derived>
+  NodalVector& operator=(const Eigen::MatrixBase<Derived>& numbers) {
+    if (!can_write(numbers.size())) return *this = NodalVector(numbers);
+    numbers_here() = numbers.derived();
+    return *this;
+  }
+  void swap(NodalVector& other) noexcept {
+    own_.swap(other.own_);
+    std::swap(shared_, other.shared_);
+  }
+
+  const Vector& whole() const { return shared_ != nullptr ? shared_->numbers : own_; }
+  // NOLINTNEXTLINE(google-explicit-constructor): for all that reads vectors
+  operator const Vector&() const { return whole(); }
+  Eigen::Index size() const { return whole().size(); }
+  double operator[](Eigen::Index k) const { return whole()[k]; }
+  double norm() const { return whole().norm(); }
+
+  /// For changing numbers: the present ones, in memory that no copy shares.
+  Vector& change();
+  /// For writing all numbers anew: `size` undefined ones, in memory that no copy shares.
+  Vector& overwrite(Eigen::Index size);
+  /// Whether another object has the same memory.
+  bool is_shared() const {
+    // Acquires what threads that shared it did before they let go: it will be written to.
+    return shared_ != nullptr && shared_->holders.load(std::memory_order_acquire) > 1;
+  }
+
+ private:
+  struct Memory {
+    Vector numbers;
+    std::atomic<int> holders{1};
+  };
+
+  Vector& numbers_here() { return shared_ != nullptr ? shared_->numbers : own_; }
+  /// Whether this memory may be written to and is of the kind for so many numbers.
+  bool can_write(Eigen::Index size) const {
+    return (shared_ != nullptr) == (size >= kShared) && !is_shared();
+  }
+  void take(Vector&& numbers);
+  Memory* hold() const {
+    if (shared_ != nullptr) shared_->holders.fetch_add(1, std::memory_order_relaxed);
+    return shared_;
+  }
+  void release() {
+    if (shared_ != nullptr) let_go();
+  }
+  void let_go();
+
+  Vector own_;                // the numbers unless shared_ has them
+  Memory* shared_ = nullptr;  // freed by the last of its holders
+};
+
+inline void swap(NodalVector& a, NodalVector& b) noexcept { a.swap(b); }
+
+}  // namespace buckens::linalg
