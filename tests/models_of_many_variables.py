@@ -107,3 +107,25 @@ joints: {hinge: {revolute: {between: [ground, cube/hub], axis: [0, 0, 1]}}}
 simulation: {duration: 0.5 ms, step: 0.1 ms}
 output: {every: 0.1 ms, sensors: {force: {joint-force: hinge}, end: {position: cube/end}}}
 """
+
+CUBE = """\
+buckens: 1
+title: A cube large enough to be distributed
+gravity: [0, -9.81, 0]
+materials: {steel: {E: 210 GPa, nu: 0.3, rho: 7850}}
+bodies:
+  cube:
+    at: {position: [0, -0.05, -0.05]}
+    mesh: {box: {size: [0.1, 0.1, 0.1], divisions: [18, 18, 18], element: hex8}, material: steel}
+    interfaces: {bearing: {face: x0}}
+joints: {ball: {spherical: {between: [ground, cube/bearing]}}}
+simulation: {duration: 0.5 ms, step: 0.1 ms}
+output: {every: 0.1 ms, sensors: {force: {joint-force: ball}, corner: {position: cube/corner_111}}}
+"""
+
+# A ball strikes the face opposite the bearing within the second step.
+BLOW = CUBE.replace("bearing: {face: x0}", "bearing: {face: x0}, struck: {face: x1}").replace("joints:", """\
+  shot: {rigid: {mass: 0.2 kg, inertia: [1e-4, 1e-4, 1e-4]}, at: {position: [0.12015, 0, 0]}}
+initial: {bodies: {shot: {velocity: [-1, 0, 0]}}}
+loads: {hit: {contact: {between: [cube/struck, shot], shapes: [{sphere: 10 mm}, {sphere: 10 mm}], restitution: 0.5}}}
+joints:""").replace("sensors: {", "sensors: {speed: {velocity: shot}, lost: {energy: impacts}, ")

@@ -127,8 +127,7 @@ void Ranks::serve(const BuckensGridMaker& maker) {
         serve_matrices(order);
         break;
       case Task::forget:
-        if (shared_->runs.count(order.number) > 0) maker_.end_rows(order.number);
-        shared_->forget(order.number);
+        forget_here(order.number);
         break;
       case Task::begin_rows:
       case Task::work_rows:
@@ -189,6 +188,12 @@ void Ranks::serve_matrices(const Order& order) {
     default:
       gather_together(order, nullptr, nullptr, nullptr);
   }
+}
+
+/// Of the others.
+void Ranks::forget_here(int number) {
+  if (shared_->runs.count(number) > 0) maker_.end_rows(number);
+  shared_->forget(number);
 }
 
 void Ranks::leave() {

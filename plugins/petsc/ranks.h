@@ -147,10 +147,12 @@ class Ranks {
   void combine_together(Pairs& own, int pairs, const float* weights, float* sum);
   void put_pair_together(Pairs& own, int pair, const float* load, const float* answer);
   void take_pair_together(Pairs& own, int pair, float* load, float* answer);
+  void forget_here(int number);
   void serve_rows(const Order& order);
   void add_runs(const Order& order);
   bool begin_rows_together(const Order& order, const BuckensGridDescription* of);
   bool work_rows_together(const Order& order, const void* program, double* sums);
+  bool receive_sums(std::size_t each, double* sums);
   bool put_rows_together(const Order& order, const double* values);
   void take_rows_together(const Order& order, double* values);
   bool solve_rows_together(const Order& order);

@@ -2,6 +2,7 @@
 // Vectors of which each process but the first has a run of rows, and work on them.
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <cstring>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace buckens_petsc {
 namespace {
 
 constexpr std::size_t kVector = 0, kAnswer = 1, kSolver = 2;  // in Order::of
+constexpr int kReason = 400;                                  // characters
+constexpr double kHasFailed = 1.0;
+constexpr int kAborted = 4;  // exit code of numerical errors
 
 void exchange_numbers(void* context, const int* out_counts, const double* out, const int* in_counts,
                       double* in) {
@@ -58,7 +62,10 @@ bool Ranks::begin_rows_together(const Order& order, const BuckensGridDescription
       is_made = false;
     }
   }
-  if (has_failed_somewhere(!is_made)) return false;
+  if (has_failed_somewhere(!is_made)) {
+    if (is_made && rank_ != 0) maker_.end_rows(order.number);
+    return false;
+  }
   add_runs(order);
   return true;
 }
@@ -77,33 +84,49 @@ bool Ranks::work_rows_together(const Order& order, const void* program, double* 
   if (rank_ == 0) std::memcpy(bytes.data(), program, bytes.size());
   MPI_Bcast(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, 0, work_);
   count_messages(count_ - 1, static_cast<double>(bytes.size()));
+  if (rank_ == 0) return receive_sums(static_cast<std::size_t>(order.columns), sums);
   const double* own = nullptr;
   long num_sums = 0;
-  bool is_done = true;
-  if (rank_ != 0) {
-    std::array<char, 400> error{};
-    int count = 0;
-    MPI_Comm_size(others_, &count);
-    const BuckensGridPeers peers{exchange_numbers, &others_, count};
-    is_done = maker_.work_rows(bytes.data(), order.bytes, &peers, &own, &num_sums, error.data(),
-                               static_cast<int>(error.size())) == 0;
-    if (!is_done) set_reason(error.data());
-    if (is_done && num_sums != order.columns) {
-      set_reason("the program asked for other sums than it got");
-      is_done = false;
+  std::array<char, kReason> error{};
+  const BuckensGridPeers peers{exchange_numbers, &others_, count_ - 1};
+  const bool is_done = maker_.work_rows(bytes.data(), order.bytes, &peers, &own, &num_sums,
+                                        error.data(), kReason) == 0;
+  // One number more tells whether that went well, so that nobody waits for an answer.
+  std::vector<double> reply(static_cast<std::size_t>(order.columns) + 1, kHasFailed);
+  if (is_done && num_sums == order.columns) {
+    std::copy_n(own, num_sums, reply.begin());
+    reply.back() = 0.0;
+  } else if (is_done) {
+    std::snprintf(error.data(), kReason, "%s", "a program asked for other sums than it got");
+  }
+  if (reply.back() != 0.0 && count_ > 2) {
+    // The others may be waiting for numbers of this process, which it no longer has.
+    std::fprintf(stderr, "buckens: error: process %d cannot go on: %s; use more memory\n", rank_,
+                 error.data());
+    MPI_Abort(MPI_COMM_WORLD, kAborted);
+  }
+  send(reply.data(), reply.size(), 0, work_);
+  if (reply.back() != 0.0) send(error.data(), kReason, 0, work_);
+  return reply.back() == 0.0;
+}
+
+/// Of the first: process after process.
+bool Ranks::receive_sums(std::size_t each, double* sums) {
+  std::vector<double> reply(each + 1);
+  std::array<char, kReason> error{};
+  bool are_done = true;
+  for (int k = 1; k < count_; ++k) {
+    receive(reply.data(), reply.size(), k, work_);
+    count_messages(1, static_cast<double>(reply.size() * sizeof(double)));
+    if (reply.back() == 0.0) {
+      std::copy_n(reply.begin(), each, sums + each * static_cast<std::size_t>(k - 1));
+      continue;
     }
+    receive(error.data(), kReason, k, work_);
+    set_reason(error.data());
+    are_done = false;
   }
-  if (has_failed_somewhere(!is_done)) return false;
-  if (order.columns == 0) return true;
-  const auto each = static_cast<std::size_t>(order.columns);
-  if (rank_ != 0) {
-    send(own, each, 0, work_);
-    return true;
-  }
-  for (int k = 1; k < count_; ++k)
-    receive(sums + each * static_cast<std::size_t>(k - 1), each, k, work_);
-  count_messages(count_ - 1, static_cast<double>(each * sizeof *sums));
-  return true;
+  return are_done;
 }
 
 bool Ranks::put_rows(int number, int vector, const double* values) {
@@ -118,9 +141,9 @@ bool Ranks::put_rows(int number, int vector, const double* values) {
 bool Ranks::put_rows_together(const Order& order, const double* values) {
   const Runs& runs = shared_->runs.at(order.number);
   double* own = rank_ != 0 ? maker_.rows(order.number, order.of[kVector]) : nullptr;
-  if (rank_ != 0 && own == nullptr)
-    set_reason("there is too little memory for the rows of a vector");
-  if (has_failed_somewhere(rank_ != 0 && own == nullptr)) return false;
+  const bool lacks_room = rank_ != 0 && own == nullptr;
+  if (lacks_room) set_reason("there is too little memory for the rows of a vector");
+  if (has_failed_somewhere(lacks_room)) return false;
   MPI_Scatterv(values, runs.counts.data(), runs.first.data(), MPI_DOUBLE, own, runs.counts[rank_],
                MPI_DOUBLE, 0, work_);
   count_messages(count_ - 1, 0);

@@ -14,7 +14,7 @@ INT, DOUBLE, FLOAT = (ctypes.POINTER(kind) for kind in (ctypes.c_int, ctypes.c_d
 
 
 # Of src/buckens/linalg/grid_plugin.h, whose structures stand below.
-VERSION = 8
+VERSION = 9
 
 
 class Columns(ctypes.Structure):
@@ -38,8 +38,9 @@ ADD_CONTENT = ctypes.CFUNCTYPE(None, ctypes.c_int, ctypes.c_int, ctypes.POINTER(
 
 
 class Maker(ctypes.Structure):
-    """Nobody asks for columns here."""
-    _fields_ = [("make", ctypes.c_void_p), ("add_content", ADD_CONTENT)]
+    """Nobody asks for columns here, or for work on rows of vectors."""
+    _fields_ = [("make", ctypes.c_void_p), ("add_content", ADD_CONTENT), ("begin_rows", ctypes.c_void_p), ("end_rows", ctypes.c_void_p),
+                ("work_rows", ctypes.c_void_p), ("rows", ctypes.c_void_p)]
 
 
 class Limits(ctypes.Structure):
@@ -73,7 +74,9 @@ class Plugin(ctypes.Structure):
                 ("project", ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_int, ctypes.c_int, FLOAT, FLOAT)),
                 ("combine", ctypes.CFUNCTYPE(None, ctypes.c_int, ctypes.c_int, FLOAT, FLOAT)),
                 ("put_pair", ctypes.CFUNCTYPE(None, ctypes.c_int, ctypes.c_int, FLOAT, FLOAT)),
-                ("take_pair", ctypes.CFUNCTYPE(None, ctypes.c_int, ctypes.c_int, FLOAT, FLOAT))]
+                ("take_pair", ctypes.CFUNCTYPE(None, ctypes.c_int, ctypes.c_int, FLOAT, FLOAT)),
+                ("runs", ctypes.c_void_p), ("begin_rows", ctypes.c_void_p), ("work_rows", ctypes.c_void_p), ("put_rows", ctypes.c_void_p),
+                ("take_rows", ctypes.c_void_p), ("solve_rows", ctypes.c_void_p)]
 
 
 def column_giver(negative):

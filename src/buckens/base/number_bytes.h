@@ -21,12 +21,11 @@ class BytesTo {
   /// `count` numbers, which take_all() takes.
   template <class T>
   void all(const T* values, std::size_t count) {
-    static_assert(std::is_arithmetic_v<T>);
+    static_assert(std::is_arithmetic_v<T> || std::is_same_v<T, std::byte>);
     put(values, count * sizeof *values);
   }
   std::span<const std::byte> bytes() const { return bytes_; }
   std::vector<std::byte> take() { return std::move(bytes_); }
-  void clear() { bytes_.clear(); }
 
  private:
   void put(const void* from, std::size_t count) {

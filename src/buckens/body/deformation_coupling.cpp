@@ -20,6 +20,29 @@ using linalg::Vector;
 
 namespace {
 
+/// T(d, d), T(d, ḋ) and T(d, d̈) with T_ab(x, y) = xᵀ W_ab y.
+struct Products {
+  Products(const Matrix3d& of_d, const Matrix3d& of_rate, const Matrix3d& of_acceleration)
+      : dd(of_d), dv(of_rate), da(of_acceleration) {}
+  explicit Products(const linalg::NodeSums& sums) {
+    const Eigen::Map<const Eigen::Matrix<double, 4, linalg::NodeSums::kColumns>> sum(sums.value);
+    dd = sum.block<3, 3>(0, 0);
+    dv = sum.block<3, 3>(0, 3);
+    da = sum.block<3, 3>(0, 6);
+  }
+  /// J₂, J̇₂, l and l̇.
+  DeformedMoments moments() const {
+    DeformedMoments out;
+    out.J = to_inertia(dd);
+    out.J_dot = to_inertia(dv + dv.transpose());
+    out.l = axial(dv);
+    out.l_dot = axial(da);
+    return out;
+  }
+
+  Matrix3d dd, dv, da;
+};
+
 /// One pass over the integrals: T_ab(x, y) = xᵀ W_ab y and the loads.
 class Pass {
  public:
@@ -80,8 +103,7 @@ class Pass {
     const linalg::NodeMatrix& Ms = common.mass;
     const linalg::NodeKernels& kernels = linalg::node_kernels();
     const std::array<const double*, 3> vectors = {d_.data(), v_.data(), a_.data()};
-    Eigen::Matrix<double, 4, 6> weights = Eigen::Matrix<double, 4, 6>::Zero();
-    weights.topRows<3>() << weights_.with_d, weights_.with_rate;
+    const Eigen::Matrix<double, 4, 6> weights = weights_.by_columns();
     const linalg::RowParts rows(d_.size(), 3);
     std::array<linalg::NodeSums, linalg::RowParts::kMostParts> sums;
     common.for_pieces(rows, pool, [&](int part, Eigen::Index first, Eigen::Index size) {
@@ -91,23 +113,14 @@ class Pass {
                      sums[static_cast<std::size_t>(part)]);
     });
     for (int part = 0; part < rows.count(); ++part) {
-      const Eigen::Map<const Eigen::Matrix<double, 4, linalg::NodeSums::kColumns>> sum(
-          sums[static_cast<std::size_t>(part)].value);
-      dd_ += sum.block<3, 3>(0, 0);
-      dv_ += sum.block<3, 3>(0, 3);
-      da_ += sum.block<3, 3>(0, 6);
+      const Products sum(sums[static_cast<std::size_t>(part)]);
+      dd_ += sum.dd;
+      dv_ += sum.dv;
+      da_ += sum.da;
     }
   }
 
-  /// J₂, J̇₂, l and l̇.
-  DeformedMoments moments() const {
-    DeformedMoments out;
-    out.J = to_inertia(dd_);
-    out.J_dot = to_inertia(dv_ + dv_.transpose());
-    out.l = axial(dv_);
-    out.l_dot = axial(da_);
-    return out;
-  }
+  DeformedMoments moments() const { return Products{dd_, dv_, da_}.moments(); }
 
  private:
   static const double* column(const SparseMatrix& W, int j) {
@@ -186,6 +199,14 @@ class Pass {
 };
 
 }  // namespace
+
+DeformedMoments deformed_moments(const linalg::NodeSums& sums) { return Products(sums).moments(); }
+
+Eigen::Matrix<double, 4, 6> DeformationWeights::by_columns() const {
+  Eigen::Matrix<double, 4, 6> out = Eigen::Matrix<double, 4, 6>::Zero();
+  out.topRows<3>() << with_d, with_rate;
+  return out;
+}
 
 DeformationWeights DeformationWeights::of_motion(const Vector3d& w, const Vector3d& w_dot,
                                                  const CouplingTerms& kept) {

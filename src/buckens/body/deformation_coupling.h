@@ -16,6 +16,8 @@ struct DeformationWeights {
   /// Those of FM (22)–(24) without ĉ. @param kept which of the three terms
   static DeformationWeights of_motion(const Eigen::Vector3d& w, const Eigen::Vector3d& w_dot,
                                       const CouplingTerms& kept);
+  /// A and B for NodeKernels::couple.
+  Eigen::Matrix<double, 4, 6> by_columns() const;
   bool are_zero() const { return with_d.isZero(0.0) && with_rate.isZero(0.0); }
 };
 
@@ -31,5 +33,8 @@ DeformedMoments evaluate_deformation(const fem::ShapeIntegrals& shape, const lin
                                      TaskPool* pool = nullptr,
                                      const linalg::CommonTable* common = nullptr,
                                      bool overwrites = false);
+
+/// The moments quadratic in d from the sums of NodeKernels::couple over all nodes.
+DeformedMoments deformed_moments(const linalg::NodeSums& sums);
 
 }  // namespace buckens::body

@@ -32,6 +32,10 @@ class NodalMotion {
 
   /// The scalar mass matrix, as long as this object lives.
   linalg::NodeMatrix mass() const;
+  const linalg::SparseMatrix& scalar_mass() const { return *Ms_; }
+  /// (X, 1) and (s, m) of the nodes.
+  const Eigen::Matrix4Xd& positions() const { return positions_; }
+  const Eigen::Matrix4Xd& mass_moments() const { return first_moments_; }
 
   /// Pᵀx, amplitudes of the orthonormal motions of the sieve.
   Vector6 momenta(const Input& x) const { return rigid(moments(x)); }

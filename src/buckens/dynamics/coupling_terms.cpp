@@ -2,7 +2,6 @@
 #include "buckens/dynamics/coupling_terms.h"
 
 #include <algorithm>
-#include <array>
 
 #include "buckens/body/deformation_coupling.h"
 #include "buckens/dynamics/frame_equation.h"
@@ -66,38 +65,44 @@ Eigen::Matrix<double, 6, 1> centrifugal_weights(const body::CouplingTerms& terms
   return body::InertiaInvariants::centrifugal_weights(w);
 }
 
-void extrapolate(const model::BodyState& state, int history, double t, model::Coupling& out,
-                 TaskPool* pool) {
-  const std::array<const model::Coupling*, 3> known = {&state.coupling, &state.coupling_before,
-                                                       &state.coupling_earlier};
+Extrapolation extrapolation_of(const model::BodyState& state, int history, double t) {
+  Extrapolation out;
+  out.known = {&state.coupling, &state.coupling_before, &state.coupling_earlier};
+  const auto& known = out.known;
   auto count = static_cast<std::size_t>(std::clamp(history, 1, 3));
   // Instants close together do not predict those far ahead; they occur after a change of step.
   const double ahead = t - known[0]->t;
   for (std::size_t k = 1; k < count; ++k) {
     if (known[k - 1]->t - known[k]->t < kLeastSpacing * ahead) count = k;
   }
-  out.moments = {};
-  std::array<double, 3> weights{};
+  out.count = count;
   for (std::size_t k = 0; k < count; ++k) {
-    weights[k] = 1.0;  // Lagrange's polynomial
+    out.weights[k] = 1.0;  // Lagrange's polynomial
     for (std::size_t j = 0; j < count; ++j) {
-      if (j != k) weights[k] *= (t - known[j]->t) / (known[k]->t - known[j]->t);
+      if (j != k) out.weights[k] *= (t - known[j]->t) / (known[k]->t - known[j]->t);
     }
     const body::DeformedMoments& moments = known[k]->moments;
-    out.moments.J += weights[k] * moments.J;
-    out.moments.J_dot += weights[k] * moments.J_dot;
-    out.moments.l += weights[k] * moments.l;
-    out.moments.l_dot += weights[k] * moments.l_dot;
+    out.moments.J += out.weights[k] * moments.J;
+    out.moments.J_dot += out.weights[k] * moments.J_dot;
+    out.moments.l += out.weights[k] * moments.l;
+    out.moments.l_dot += out.weights[k] * moments.l_dot;
   }
+  return out;
+}
+
+void extrapolate(const model::BodyState& state, int history, double t, model::Coupling& out,
+                 TaskPool* pool) {
+  const Extrapolation plan = extrapolation_of(state, history, t);
+  out.moments = plan.moments;
   std::array<const Vector*, 3> known_loads{};
-  for (std::size_t k = 0; k < count; ++k) known_loads[k] = &known[k]->load.whole();
+  for (std::size_t k = 0; k < plan.count; ++k) known_loads[k] = &plan.known[k]->load.whole();
   Vector& whole = out.load.overwrite(known_loads[0]->size());
   const linalg::RowParts rows(whole.size());
   rows.for_pieces(pool, [&](int /*part*/, Eigen::Index first, Eigen::Index size) {
     auto load = whole.segment(first, size);
-    load = weights[0] * known_loads[0]->segment(first, size);
-    for (std::size_t k = 1; k < count; ++k) {
-      load += weights[k] * known_loads[k]->segment(first, size);
+    load = plan.weights[0] * known_loads[0]->segment(first, size);
+    for (std::size_t k = 1; k < plan.count; ++k) {
+      load += plan.weights[k] * known_loads[k]->segment(first, size);
     }
   });
   out.t = t;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "buckens/base/task_pool.h"
 #include "buckens/linalg/common_table.h"
 #include "buckens/model/state.h"
@@ -34,6 +37,15 @@ body::DeformedMoments frame_moments(const body::Body& body, const body::Coupling
 /// Weights of the six centrifugal load patterns; zero if the term is not kept.
 Eigen::Matrix<double, 6, 1> centrifugal_weights(const body::CouplingTerms& terms,
                                                 const Eigen::Vector3d& w);
+
+/// How the coupling at an instant follows from those of the state.
+struct Extrapolation {
+  std::array<const model::Coupling*, 3> known{};
+  std::array<double, 3> weights{};
+  std::size_t count = 0;          ///< of them that count
+  body::DeformedMoments moments;  ///< at the instant
+};
+Extrapolation extrapolation_of(const model::BodyState& state, int history, double t);
 
 /// Coupling at t, extrapolated from the instants of the state by the parabola, line or constant
 /// through `history` of them. Steps may differ in length.

@@ -82,6 +82,12 @@ void motions_of(const model::Model& model, const model::State& state,
     const model::BodyState& s = state.bodies[k];
     out[k].frame = s.frame;
     if (!model.bodies[k].is_flexible()) continue;
+    const std::vector<linalg::Vector> there = linalg::NodalVector::row_products(s.d, s.d_dot);
+    if (!there.empty()) {
+      out[k].y = there[0];
+      out[k].y_dot = there[1];
+      continue;
+    }
     const auto& rows = model.bodies[k].flexible->rows;
     out[k].y.noalias() = rows * s.d.whole();
     out[k].y_dot.noalias() = rows * s.d_dot.whole();

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <limits>
 #include <mutex>
 
 #include <fmt/format.h>
@@ -23,13 +25,17 @@ using ErrorText = std::array<char, 400>;
 int size_of(const ErrorText& text) { return static_cast<int>(text.size()); }
 
 [[noreturn]] void fail(const char* what, Eigen::Index size, const ErrorText& why) {
-  throw NumericalError(fmt::format("{} of {} variables on {} processes failed: {}; use more memory",
-                                   what, size, Ranks::count(), why.data()));
+  throw NumericalError(
+      fmt::format("{} of {} variables on {} processes failed: {}; use more memory, "
+                  "or run it in one process",
+                  what, size, Ranks::count(), why.data()));
 }
 
+/// Several threads may work on different bodies. Begins anew when numbers run out.
 int next_vector() {
-  static int number = 0;
-  return number++;
+  constexpr unsigned kLargest = std::numeric_limits<int>::max();
+  static std::atomic<unsigned> number = 0;
+  return static_cast<int>(number++ & kLargest);
 }
 
 }  // namespace
@@ -61,8 +67,7 @@ DividedVectors::~DividedVectors() {
 
 DividedVector DividedVectors::new_vector() {
   DividedVector out;
-  out.held_ =
-      std::make_shared<const DividedVector::Held>(DividedVector::Held{dropped_, next_vector()});
+  out.held_ = std::make_shared<DividedVector::Held>(dropped_, next_vector());
   return out;
 }
 
@@ -76,9 +81,27 @@ DividedVector DividedVectors::put(const Vector& x) {
   return out;
 }
 
+void DividedVectors::catch_up() const {
+  if (!pending_.empty()) work(0, nullptr);
+}
+
+void DividedVectors::work(std::size_t sums_each, double* sums) const {
+  base::BytesTo put;
+  put(number_);
+  put.all(pending_.data(), pending_.size());
+  pending_.clear();
+  ErrorText error{};
+  const auto bytes = put.bytes();
+  const int failure =
+      grid_solver().work_rows(bytes.data(), static_cast<long>(bytes.size()),
+                              static_cast<int>(sums_each), sums, error.data(), size_of(error));
+  if (failure != 0) fail("a step", size_, error);
+}
+
 void DividedVectors::take(const DividedVector& x, Vector& out) const {
   out.resize(size_);
   const std::scoped_lock lock(turn_of_grid_solver());
+  catch_up();
   grid_solver().take_rows(number_, x.number(), out.data());
 }
 
@@ -86,6 +109,7 @@ DividedVector DividedVectors::solve(void* factor, const DividedVector& b) {
   DividedVector x = new_vector();
   ErrorText error{};
   const std::scoped_lock lock(turn_of_grid_solver());
+  catch_up();
   const SingleThread single;
   const int failure = grid_solver().solve_rows(factor, number_, b.number(), x.number(),
                                                error.data(), size_of(error));
@@ -93,15 +117,7 @@ DividedVector DividedVectors::solve(void* factor, const DividedVector& b) {
   return x;
 }
 
-RowProgram::RowProgram(DividedVectors& of) : of_(&of) {
-  put_(of.number_);
-  std::vector<int> dropped;
-  dropped.swap(*of.dropped_);
-  for (const int number : dropped) {
-    put_(RowTask::drop);
-    put_(number);
-  }
-}
+RowProgram::RowProgram(DividedVectors& of) : of_(&of) {}
 
 RowProgram::Sums RowProgram::expect(std::size_t count) {
   const Sums out{expected_, count};
@@ -176,10 +192,9 @@ RowProgram::Sums RowProgram::row_products(std::initializer_list<const DividedVec
 }
 
 RowProgram::Sums RowProgram::compare(const DividedVector& x, const DividedVector& before,
-                                     const DividedVector& weights, const DividedVector& factors) {
+                                     const DividedVector& weights) {
   put_(RowTask::compare);
   for (const DividedVector* each : {&x, &before, &weights}) put_(each->number());
-  put_(factors.empty() ? -1 : factors.number());
   return expect(kCompared);
 }
 
@@ -191,18 +206,23 @@ RowProgram::Sums RowProgram::total(std::initializer_list<const DividedVector*> v
 }
 
 void RowProgram::run() {
-  replies_.assign(expected_ * static_cast<std::size_t>(Ranks::count() - 1), 0.0);
-  ErrorText error{};
   const std::scoped_lock lock(turn_of_grid_solver());
-  const auto bytes = put_.bytes();
-  const int failure = grid_solver().work_rows(bytes.data(), static_cast<long>(bytes.size()),
-                                              static_cast<int>(expected_), replies_.data(),
-                                              error.data(), size_of(error));
-  if (failure != 0) fail("a step", of_->size_, error);
+  std::vector<int> dropped;
+  dropped.swap(*of_->dropped_);
+  for (const int number : dropped) {
+    put_(RowTask::drop);
+    put_(number);
+  }
+  const auto own = put_.bytes();
+  of_->pending_.insert(of_->pending_.end(), own.begin(), own.end());
+  if (expected_ == 0) return;
+  replies_.assign(expected_ * static_cast<std::size_t>(Ranks::count() - 1), 0.0);
+  of_->work(expected_, replies_.data());
 }
 
 Vector RowProgram::sum(const Sums& of) const {
   Vector out = Vector::Zero(static_cast<Eigen::Index>(of.count));
+  if (of.count == 0) return out;
   for (std::size_t first = of.first; first + of.count <= replies_.size(); first += expected_) {
     out += Eigen::Map<const Vector>(replies_.data() + first, out.size());
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <utility>
@@ -9,37 +10,15 @@
 #include <Eigen/Core>
 
 #include "buckens/base/number_bytes.h"
+#include "buckens/linalg/divided_vector.h"
 #include "buckens/linalg/matrix_types.h"
 #include "buckens/linalg/row_program.h"
 
 namespace buckens::linalg {
 
-class DividedVectors;
-
-/// A vector of the variables of a solid of which the other processes have the rows; empty if
-/// default-made. Copies are the same vector, which lives as long as one of them.
-class DividedVector {
- public:
-  DividedVector() = default;
-  bool empty() const { return held_ == nullptr; }
-  /// Of the other processes.
-  int number() const { return held_->number; }
-  /// Whether another copy is the same vector: then it must not be changed.
-  bool is_shared() const { return held_.use_count() > 1; }
-
- private:
-  friend class DividedVectors;
-  struct Held {
-    std::shared_ptr<std::vector<int>> dropped;  // of its body, when it is gone
-    int number;
-    ~Held() { dropped->push_back(number); }
-  };
-  std::shared_ptr<const Held> held_;
-};
-
 /// Vectors of one solid that the other processes have by runs of whole nodes (ranks.h), and the
 /// work on them. Beside vectors, each process has its columns of the scalar mass matrix and of
-/// interface rows, and the places of its nodes.
+/// the rows N of the body, and the places of its nodes.
 class DividedVectors {
  public:
   struct Tables {
@@ -55,7 +34,8 @@ class DividedVectors {
   DividedVectors& operator=(const DividedVectors&) = delete;
 
   Eigen::Index size() const { return size_; }
-  int num_interface_rows() const { return num_rows_; }
+  /// Rows N, of interfaces and of other places whose values are asked for.
+  int num_rows() const { return num_rows_; }
   /// Gives a vector to the others.
   DividedVector put(const Vector& x);
   /// Brings one here. @param x gets its size
@@ -66,11 +46,18 @@ class DividedVectors {
  private:
   friend class RowProgram;
   DividedVector new_vector();
+  // With the turn of the plug-in.
+  /// Has the others do what was put off.
+  void catch_up() const;
+  /// The same, together with tasks that bring sums. @param sums of each process, one after the
+  /// other
+  void work(std::size_t sums_each, double* sums) const;
 
   int number_ = -1;
   Eigen::Index size_;
   int num_rows_;
   std::shared_ptr<std::vector<int>> dropped_ = std::make_shared<std::vector<int>>();
+  mutable std::vector<std::byte> pending_;  // tasks that nobody waits for
 };
 
 /// Work on vectors, written down task by task and then done at once by all processes.
@@ -86,7 +73,7 @@ class RowProgram {
 
   /// Σ weight x. Terms whose weight is zero are left out.
   DividedVector combine(Terms terms);
-  /// y ← y + Σ weight x. @pre !y.is_shared()
+  /// y ← y + Σ weight x. @pre no other copy of y is used
   void add(const DividedVector& y, Terms terms);
   DividedVector multiply_mass(const DividedVector& x);
   /// A M d + B M ḋ, empty without weights, and the sums of NodeKernels::couple.
@@ -98,17 +85,18 @@ class RowProgram {
   Coupled couple(const DividedVector& d, const DividedVector& rate,
                  const DividedVector& acceleration, const double* weights);
   Sums moments(const DividedVector& x);
-  /// y ← y − T X of each node. @pre !y.is_shared()
+  /// y ← y − T X of each node. @pre no other copy of y is used
   void subtract(const DividedVector& y, const double* motion);
   /// N x of each, one after the other.
   Sums row_products(std::initializer_list<const DividedVector*> vectors);
-  /// kCompared sums. @param factors empty: weights
-  Sums compare(const DividedVector& x, const DividedVector& before, const DividedVector& weights,
-               const DividedVector& factors);
+  /// kCompared sums.
+  Sums compare(const DividedVector& x, const DividedVector& before, const DividedVector& weights);
   /// Of all numbers: not finite if one of them is not.
   Sums total(std::initializer_list<const DividedVector*> vectors);
 
-  /// Has it done. @throws NumericalError if memory is too small
+  /// Has the others do it, at once if there are sums, and otherwise before anything else is done
+  /// with these vectors. Vectors that are gone give their memory back after it. @throws
+  /// NumericalError if memory is too small
   void run();
   /// Of all rows, the parts of the processes added in their order.
   Vector sum(const Sums& of) const;

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "buckens/base/task_pool.h"
+#include "buckens/linalg/divided_vector.h"
 #include "buckens/linalg/matrix_types.h"
 
 namespace buckens::linalg {
@@ -45,6 +46,14 @@ class Factor {
   virtual void improve(const Vector& b, Vector& x, double energy) const;
   /// Nothing but zeros of a factor that does not iterate.
   virtual IterationCounts iteration_counts() const { return {}; }
+
+  /// Whether it answers vectors that other processes have.
+  virtual bool solves_divided() const { return false; }
+  /// A⁻¹ b of such a vector. @pre solves_divided()
+  virtual DividedVector solve_divided(DividedVectors& /*vectors*/,
+                                      const DividedVector& /*b*/) const {
+    return {};
+  }
 
   /// x ← A⁻¹ x. Cost: two passes over the factor.
   void solve_in_place(Vector& x, TaskPool* pool = nullptr) const {

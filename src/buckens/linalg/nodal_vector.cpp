@@ -1,9 +1,69 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/linalg/nodal_vector.h"
 
+#include <mutex>
+
+#include "buckens/linalg/divided_vectors.h"
+
 namespace buckens::linalg {
 
+namespace {
+std::mutex& turn_to_bring() {
+  static std::mutex turn;
+  return turn;
+}
+}  // namespace
+
+NodalVector::NodalVector(std::shared_ptr<DividedVectors> of, DividedVector there)
+    : shared_(new Memory(Vector())) {
+  shared_->of = std::move(of);
+  shared_->there = std::move(there);
+  shared_->is_elsewhere.store(true, std::memory_order_release);
+}
+
+Eigen::Index NodalVector::size() const {
+  if (shared_ == nullptr) return own_.size();
+  return shared_->of != nullptr ? shared_->of->size() : shared_->numbers.size();
+}
+
+std::vector<Vector> NodalVector::row_products(const NodalVector& x, const NodalVector& y) {
+  const auto is_elsewhere = [](const NodalVector& z) {
+    return z.shared_ != nullptr && z.shared_->is_elsewhere.load(std::memory_order_acquire);
+  };
+  if (!is_elsewhere(x) || !is_elsewhere(y) || x.shared_->of != y.shared_->of) return {};
+  RowProgram program(*x.shared_->of);
+  const RowProgram::Sums products = program.row_products({&x.shared_->there, &y.shared_->there});
+  program.run();
+  const Vector all = program.sum(products);
+  return {all.head(all.size() / 2), all.tail(all.size() / 2)};
+}
+
+void NodalVector::bring() const {
+  const std::scoped_lock lock(turn_to_bring());
+  if (!shared_->is_elsewhere.load(std::memory_order_acquire)) return;
+  shared_->of->take(shared_->there, shared_->numbers);
+  shared_->is_elsewhere.store(false, std::memory_order_release);
+}
+
+void NodalVector::stay_here() {
+  shared_->of = nullptr;
+  shared_->there = {};
+  shared_->is_elsewhere.store(false, std::memory_order_release);
+}
+
+DividedVector NodalVector::divided(const std::shared_ptr<DividedVectors>& of) const {
+  if (shared_->of == of) return shared_->there;
+  const Vector& numbers = whole();
+  const std::scoped_lock lock(turn_to_bring());
+  if (shared_->of != of) {
+    shared_->there = of->put(numbers);
+    shared_->of = of;
+  }
+  return shared_->there;
+}
+
 Vector& NodalVector::change() {
+  (void)whole();
   if (is_shared()) *this = NodalVector(Vector(whole()));
   return numbers_here();
 }
@@ -19,7 +79,7 @@ void NodalVector::take(Vector&& numbers) {
   if (numbers.size() < kShared) {
     own_ = std::move(numbers);
   } else {
-    shared_ = new Memory{std::move(numbers)};
+    shared_ = new Memory(std::move(numbers));
   }
 }
 

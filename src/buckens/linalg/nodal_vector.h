@@ -2,14 +2,20 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <utility>
+#include <vector>
 
+#include "buckens/linalg/divided_vector.h"
 #include "buckens/linalg/matrix_types.h"
 
 namespace buckens::linalg {
 
 /// Numbers of the nodes of a body. Copies of a long vector share its memory until one of them is
 /// written to; short ones are copied, which costs less than counting who shares them.
+///
+/// The numbers may also be held by other processes (DividedVectors): whole() then brings them here,
+/// once; writing to them makes them numbers of this process only.
 ///
 /// What whole() returns is valid until the object is written to or destroyed. What change() and
 /// overwrite() return is to be written to before the object is copied: later the copies would
@@ -27,6 +33,8 @@ class NodalVector {
   template <class Derived>
   NodalVector(const Eigen::MatrixBase<Derived>& numbers) : NodalVector(Vector(numbers)) {}
   // NOLINTEND(google-explicit-constructor)
+  /// One that other processes have. @pre it has at least kShared numbers
+  NodalVector(std::shared_ptr<DividedVectors> of, DividedVector there);
   NodalVector(const NodalVector& other) : own_(other.own_), shared_(other.hold()) {}
   NodalVector(NodalVector&& other) noexcept
       : own_(std::move(other.own_)), shared_(std::exchange(other.shared_, nullptr)) {}
@@ -57,10 +65,20 @@ class NodalVector {
     std::swap(shared_, other.shared_);
   }
 
-  const Vector& whole() const { return shared_ != nullptr ? shared_->numbers : own_; }
+  const Vector& whole() const {
+    if (shared_ == nullptr) return own_;
+    if (shared_->is_elsewhere.load(std::memory_order_acquire)) bring();
+    return shared_->numbers;
+  }
+  /// The same numbers as a vector of other processes, to whom they are given if they have not got
+  /// them. @pre at least kShared of them
+  DividedVector divided(const std::shared_ptr<DividedVectors>& of) const;
   // NOLINTNEXTLINE(google-explicit-constructor): for all that reads vectors
   operator const Vector&() const { return whole(); }
-  Eigen::Index size() const { return whole().size(); }
+  /// Products of the rows N of a body with two of its vectors, by one order, if other processes
+  /// have both and this one has not brought them: so that they need not come. Otherwise empty.
+  static std::vector<Vector> row_products(const NodalVector& x, const NodalVector& y);
+  Eigen::Index size() const;
   double operator[](Eigen::Index k) const { return whole()[k]; }
   double norm() const { return whole().norm(); }
 
@@ -76,11 +94,23 @@ class NodalVector {
 
  private:
   struct Memory {
+    explicit Memory(Vector own) : numbers(std::move(own)) {}
     Vector numbers;
     std::atomic<int> holders{1};
+    // Of numbers that other processes have, too, or they only.
+    std::atomic<bool> is_elsewhere{false};
+    std::shared_ptr<DividedVectors> of;
+    DividedVector there;
   };
 
-  Vector& numbers_here() { return shared_ != nullptr ? shared_->numbers : own_; }
+  /// To be written to.
+  Vector& numbers_here() {
+    if (shared_ == nullptr) return own_;
+    if (shared_->of != nullptr) stay_here();
+    return shared_->numbers;
+  }
+  void bring() const;
+  void stay_here();
   /// Whether this memory may be written to and is of the kind for so many numbers.
   bool can_write(Eigen::Index size) const {
     return (shared_ != nullptr) == (size >= kShared) && !is_shared();

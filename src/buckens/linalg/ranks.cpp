@@ -16,6 +16,7 @@
 #include "buckens/base/free_memory.h"
 #include "buckens/linalg/column_maker.h"
 #include "buckens/linalg/divided_graph.h"
+#include "buckens/linalg/divided_vectors.h"
 #include "buckens/linalg/factor_work.h"
 #include "buckens/linalg/grid_library.h"
 #include "buckens/linalg/row_service.h"
@@ -111,6 +112,10 @@ class SharedFactor final : public Factor {
   }
   void solve_in_place(std::span<double* const> vectors, TaskPool* /*pool*/) const override {
     for (double* x : vectors) solve_one(x, x);
+  }
+  bool solves_divided() const override { return true; }
+  DividedVector solve_divided(DividedVectors& vectors, const DividedVector& b) const override {
+    return vectors.solve(handle_, b);
   }
 
  private:

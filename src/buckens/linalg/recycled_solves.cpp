@@ -68,7 +68,7 @@ double RecycledSolves::project(Request& request, TaskPool* pool) {
 
 bool RecycledSolves::answer(Vector& f, double limit, Request& request, TaskPool* pool) {
   request.fate = Request::Fate::not_tried;
-  if (most_ == 0 || asleep_for_ > 0) return false;
+  if (!may_answer()) return false;
   begin(f, request, pool);
   if (project(request, pool) <= limit) {
     pairs_->combine(num_pairs(), request.weights, scale_, false, f, pool);

@@ -53,6 +53,8 @@ class RecycledSolves {
   void forget();
 
   int most() const { return most_; }
+  /// Whether answer() tries at all.
+  bool may_answer() const { return most_ > 0 && asleep_for_ == 0; }
   int num_pairs() const { return static_cast<int>(scores_.size()); }
   bool is_asleep() const { return asleep_for_ > 0; }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What of a solid belongs to the nodes of one process, as bytes.
 #include <algorithm>
-#include <numeric>
 
 #include "buckens/linalg/row_worker.h"
 

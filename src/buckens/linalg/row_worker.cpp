@@ -65,9 +65,6 @@ std::span<const double> RowWorker::work(std::span<const std::byte> program, RowP
 
 void RowWorker::do_task(RowTask task, const Space& space, Take& take, RowPeers& peers) {
   switch (task) {
-    case RowTask::room:
-      make_room(space, take.next<int>());
-      break;
     case RowTask::drop: {
       const auto own = vectors_.find(take.next<int>());
       if (own == vectors_.end()) break;
@@ -196,14 +193,12 @@ void RowWorker::compare(const Space& space, Take& take) {
   const auto x = next();
   const auto before = next();
   const auto weights = next();
-  const auto of_factors = take.next<int>();
-  const Eigen::Map<const Vector> factors(of_factors >= 0 ? at(of_factors) : weights.data(), n);
   double change = 0, size = 0, most = 0;
   for (Eigen::Index k = 0; k < n; ++k) {
     const double moved = x[k] - before[k];
     change += weights[k] * moved * moved;
     size += weights[k] * x[k] * x[k];
-    most = std::max(most, std::abs(factors[k] * moved));
+    most = std::max(most, std::abs(weights[k] * moved));
   }
   sums_.insert(sums_.end(), {change, size, most});
 }

@@ -61,6 +61,7 @@ void BodyStepOperator::row_values(const model::BodyState& state, Vector& y, Vect
     small_.row_values(state.d_alg, y_alg);
     return;
   }
+  if (divided_) return divided_->row_values(*this, state, y, y_dot, y_ddot, y_alg);
   for (Vector* values : {&y, &y_dot, &y_ddot, &y_alg}) values->setZero(num_rows());
   const Vector &d = state.d.whole(), &d_dot = state.d_dot.whole();
   const Vector &d_ddot = state.d_ddot.whole(), &d_alg = state.d_alg.whole();

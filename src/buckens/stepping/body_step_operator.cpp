@@ -91,14 +91,27 @@ BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme&
   }
   find_nodal(source);
   find_responses(source);
-  compliance_ = row_values(responses_->G);
-  interface_ = compliance_.topLeftCorner(part.num_interface_rows, part.num_interface_rows);
-  correction_ = Matrix::Zero(compliance_.rows(), compliance_.cols());
-  if (scheme.weight == 1.0) {
-    correction_.leftCols(part.num_interface_rows) = row_values(responses_->D_less_G);
-  }
+  find_row_answers();
   rigid_row_values_ = row_values(part.sieve.Phi());
   if (inverse_.size() > 0 && part.num_dofs() < num_rows()) small_ = answers_by_variables();
+  divide();
+}
+
+void BodyStepOperator::find_row_answers() {
+  const Eigen::Index interface = part_->num_interface_rows;
+  compliance_ = row_values(responses_->G);
+  interface_ = compliance_.topLeftCorner(interface, interface);
+  correction_ = Matrix::Zero(compliance_.rows(), compliance_.cols());
+  if (scheme_.weight == 1.0) correction_.leftCols(interface) = row_values(responses_->D_less_G);
+}
+
+/// Gives the responses to other processes if they do the work on the body's vectors.
+void BodyStepOperator::divide() {
+  divided_ = DividedBody::make(*this, *part_, *responses_);
+  if (!divided_) return;
+  auto left = std::make_shared<BodyResponses>();
+  left->source = responses_->source;
+  responses_ = std::move(left);
 }
 
 void BodyStepOperator::find_nodal(const FactorSource& source) {
@@ -119,7 +132,9 @@ void BodyStepOperator::find_nodal(const FactorSource& source) {
 void BodyStepOperator::find_responses(const FactorSource& source) {
   const BodyResponses::Source own(factor_.get(), nodal_.get(), *part_, N_, scheme_);
   const auto make = [&] { return make_responses(own); };
-  if (!nodal_ || iterates()) {
+  // A twin whose vectors other processes have has given them its responses, and two bodies cannot
+  // share those: threads may work on both at a time.
+  if (!nodal_ || iterates() || (source.twin != nullptr && source.twin->divided_)) {
     responses_ = make();
   } else if (source.twin != nullptr && source.twin->responses_->source == own) {
     responses_ = source.twin->responses_;

@@ -10,6 +10,7 @@
 #include "buckens/linalg/solve_exchange.h"
 #include "buckens/stepping/body_answer.h"
 #include "buckens/stepping/body_responses.h"
+#include "buckens/stepping/divided_body.h"
 #include "buckens/stepping/inertial_load.h"
 
 namespace buckens::stepping {
@@ -59,7 +60,8 @@ class BodyStepOperator final : public BodyAnswer {
   /// x ← Y K̂⁻¹ x, outside of steps: counts as set-up.
   void solve(linalg::Vector& x);
 
-  /// Adds c G f, the response to loads along the rows of N, to a piece of a vector.
+  /// Adds c G f, the response to loads along the rows of N, to a piece of a vector. This and the
+  /// next two: of bodies whose responses are here, not divided().
   /// @param load f, including weights of the patterns
   /// @param first first row of the piece
   void add_answer(const Eigen::VectorXd& load, Eigen::Index first,
@@ -84,7 +86,7 @@ class BodyStepOperator final : public BodyAnswer {
   /// Those rows of N that belong to the interface; the others are the patterns.
   const InterfaceRows& interface_rows() const { return N_; }
 
-  /// G = Y K̂⁻¹ Nᵀ.
+  /// G = Y K̂⁻¹ Nᵀ; empty if other processes have it.
   const linalg::Matrix& responses() const { return responses_->G; }
 
   /// Whether N has rows of the patterns.
@@ -95,6 +97,8 @@ class BodyStepOperator final : public BodyAnswer {
   const body::Sieve& sieve() const { return part_->sieve; }
   /// Rigid motion and patterns node by node, of large solids without constraints; else null.
   const body::NodalMotion* nodal() const { return nodal_.get(); }
+  /// Null, or what other processes have of the body, who then work on the rows of its vectors.
+  const DividedBody* divided() const { return divided_.get(); }
   /// What passes over the rows read that other bodies may read, too.
   const linalg::CommonTable& common() const { return common_; }
 
@@ -118,6 +122,8 @@ class BodyStepOperator final : public BodyAnswer {
   void find_factor(const linalg::MatrixSum& K_hat, const FactorSource& source);
   void find_nodal(const FactorSource& source);
   void find_responses(const FactorSource& source);
+  void find_row_answers();
+  void divide();
   std::shared_ptr<const BodyResponses> make_responses(const BodyResponses::Source& source);
   SmallBodyAnswers answers_by_variables() const;
   /// X ← Y K̂⁻¹ X, as part of the set-up.
@@ -137,6 +143,7 @@ class BodyStepOperator final : public BodyAnswer {
   std::shared_ptr<const BodyResponses> responses_;
   linalg::Matrix rigid_row_values_;
   InertialLoad inertial_;
+  std::shared_ptr<const DividedBody> divided_;
   long setup_solves_ = 0;
 };
 

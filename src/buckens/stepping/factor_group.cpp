@@ -72,9 +72,14 @@ void FactorGroup::solve(const model::State& before, TaskPool* pool) {
   if (factor_->iterates()) return iterate(before);
   sides_.clear();
   for (FlexibleStep* body : active_) {
-    sides_.push_back(body->large.side().data());
     ++body->solves;
+    if (body->large.is_divided()) {
+      body->large.solve_divided(*factor_);
+    } else {
+      sides_.push_back(body->large.side().data());
+    }
   }
+  if (sides_.empty()) return;
   if (exchange_ != nullptr) {
     exchange_->solve(*factor_, sides_, pool);
   } else {
@@ -98,7 +103,7 @@ void FactorGroup::answer_changes(const model::State& before, bool recycles, Task
     if (factor_->iterates()) body->large.sieve_side();
     const double limit = left_ * body->large.op().scheme().force * body->coupling.load_size();
     if (recycles) requests_.push_back(&body->request);
-    if (recycles && kept_.answer(body->large.side(), limit, body->request, pool)) {
+    if (recycles && answer(*body, limit, pool)) {
       ++body->recycled;
     } else {
       active_.push_back(body);
@@ -106,7 +111,27 @@ void FactorGroup::answer_changes(const model::State& before, bool recycles, Task
   }
   solve(before, pool);
   if (!recycles) return;
-  for (FlexibleStep* body : active_) kept_.complete(body->request, body->large.side(), pool);
+  for (FlexibleStep* body : active_) complete(*body, pool);
+}
+
+bool FactorGroup::answer(FlexibleStep& body, double limit, TaskPool* pool) {
+  if (!body.large.is_divided()) return kept_.answer(body.large.side(), limit, body.request, pool);
+  if (!kept_.may_answer()) {
+    body.request.fate = linalg::RecycledSolves::Request::Fate::not_tried;
+    return false;
+  }
+  body.large.bring_side(brought_);
+  const bool is_answered = kept_.answer(brought_, limit, body.request, pool);
+  body.large.give_side(brought_);
+  return is_answered;
+}
+
+void FactorGroup::complete(FlexibleStep& body, TaskPool* pool) {
+  if (!body.large.is_divided()) return kept_.complete(body.request, body.large.side(), pool);
+  if (body.request.fate != linalg::RecycledSolves::Request::Fate::solved) return;
+  body.large.bring_side(brought_);
+  kept_.complete(body.request, brought_, pool);
+  body.large.give_side(brought_);
 }
 
 void FactorGroup::learn(TaskPool* pool) {

@@ -43,6 +43,8 @@ class FactorGroup {
  private:
   void solve(const model::State& before, TaskPool* pool);
   void iterate(const model::State& before);
+  bool answer(FlexibleStep& body, double limit, TaskPool* pool);
+  void complete(FlexibleStep& body, TaskPool* pool);
 
   const linalg::Factor* factor_;
   linalg::SolveExchange* exchange_;
@@ -52,6 +54,7 @@ class FactorGroup {
   std::vector<double*> sides_;
   std::vector<linalg::RecycledSolves::Request*> requests_;  // of this step
   linalg::RecycledSolves kept_;
+  linalg::Vector brought_;  // of a body whose vectors other processes have
 };
 
 }  // namespace buckens::stepping

@@ -31,7 +31,8 @@ LaggedCoupling::LaggedCoupling(const body::Body& body, const BodyStepOperator& o
       scheme_(op.scheme()),
       common_(op.nodal() != nullptr ? &op.common() : nullptr),
       rows_(op.num_dofs()),
-      inverse_diagonal_(op.K_hat_diagonal().cwiseInverse()) {
+      inverse_diagonal_(op.K_hat_diagonal().cwiseInverse()),
+      divided_(op.divided()) {
   const linalg::Matrix patterns = body.flexible->invariants.centrifugal_patterns();
   const linalg::Vector lengths = body::coordinate_lengths(body);
   if ((lengths.array() != 1.0).any()) moved_per_load_ = lengths.cwiseProduct(inverse_diagonal_);
@@ -42,12 +43,25 @@ void LaggedCoupling::start(const model::BodyState& s, int history, double t, Tas
   load_changed_ = true;
   if (!s.terms.are_lagged()) {
     used_ = evaluated_ = {};
-  } else if (history > 0) {
-    dynamics::extrapolate(s, known_instants(s, history), scheme_.evaluation_time(t), used_, pool);
+  } else if (history == 0) {
+    evaluate_coupling(s.terms, s.d, s.d_dot, s.d_ddot, s.frame.w, s.w_dot, false, used_, pool);
+  } else if (divided_ != nullptr) {
+    extrapolate_divided(s, known_instants(s, history), scheme_.evaluation_time(t));
   } else {
-    dynamics::evaluate_coupling(*body_, s.terms, s.d, s.d_dot, s.d_ddot, s.frame.w, s.w_dot, used_,
-                                pool, common_);
+    dynamics::extrapolate(s, known_instants(s, history), scheme_.evaluation_time(t), used_, pool);
   }
+}
+
+/// @param compares whether the load is to be compared with the one used
+LaggedCoupling::Sizes LaggedCoupling::evaluate_coupling(
+    const body::CouplingTerms& terms, const linalg::NodalVector& d, const linalg::NodalVector& rate,
+    const linalg::NodalVector& acceleration, const Vector3d& w, const Vector3d& w_dot,
+    bool compares, model::Coupling& out, TaskPool* pool) {
+  if (divided_ != nullptr) {
+    return evaluate_divided(terms, d, rate, acceleration, w, w_dot, compares, out);
+  }
+  dynamics::evaluate_coupling(*body_, terms, d, rate, acceleration, w, w_dot, out, pool, common_);
+  return compares && terms.have_load() ? compare_loads(pool) : Sizes();
 }
 
 // How many past instants the coupling may be extrapolated from without making rounding grow.
@@ -117,13 +131,13 @@ LaggedCoupling::Gap LaggedCoupling::evaluate(const BodyStep& step, const LargeSt
   const Vector6 acceleration = step.frame_acceleration(scheme_);
   const Vector3d w = rate.head<3>();
   const Vector3d w_dot = acceleration.head<3>();
-  dynamics::evaluate_coupling(*body_, step.terms, large.d_e(after), large.rate_e(after),
-                              large.acceleration_e(after), w, w_dot, evaluated_, pool, common_);
+  const Sizes sizes =
+      evaluate_coupling(step.terms, large.d_e(after), large.rate_e(after),
+                        large.acceleration_e(after), w, w_dot, true, evaluated_, pool);
   evaluated_.t = scheme_.evaluation_time(t);
 
   Change change;
   if (step.terms.have_load()) {
-    const Sizes sizes = compare_loads(pool);
     const Vector6 weights = dynamics::centrifugal_weights(step.terms, w);
     load_size_ = std::sqrt(sizes.load + weights.dot(undeformed_ * weights));
     change.load = std::sqrt(sizes.change);

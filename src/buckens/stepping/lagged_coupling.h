@@ -63,7 +63,7 @@ class LaggedCoupling {
   const model::Coupling& used() const { return used_; }
   model::Coupling& evaluated() { return evaluated_; }
   /// Load that take_over() has replaced.
-  const linalg::Vector& load_before() const { return evaluated_.load.whole(); }
+  const linalg::NodalVector& load_before() const { return evaluated_.load; }
   /// Size of the whole coupling load, √(‖F‖² + ‖ĉ‖²), at the last evaluation.
   double load_size() const { return load_size_; }
   /// 1/K̂ᵢᵢ, which makes the norm; empty if there are no loads.
@@ -78,13 +78,23 @@ class LaggedCoupling {
     double moved = 0;
   };
   Sizes compare_loads(TaskPool* pool);
+  Sizes evaluate_coupling(const body::CouplingTerms& terms, const linalg::NodalVector& d,
+                          const linalg::NodalVector& rate, const linalg::NodalVector& acceleration,
+                          const Eigen::Vector3d& w, const Eigen::Vector3d& w_dot, bool compares,
+                          model::Coupling& out, TaskPool* pool);
+  void extrapolate_divided(const model::BodyState& s, int history, double t);
+  Sizes evaluate_divided(const body::CouplingTerms& terms, const linalg::NodalVector& d,
+                         const linalg::NodalVector& rate, const linalg::NodalVector& acceleration,
+                         const Eigen::Vector3d& w, const Eigen::Vector3d& w_dot, bool compares,
+                         model::Coupling& out);
 
   const body::Body* body_;
   Scheme scheme_;
   const linalg::CommonTable* common_;  // of a solid, or null
   linalg::RowParts rows_;
-  linalg::Vector inverse_diagonal_;         // of K̂; empty if there are no loads
-  linalg::Vector moved_per_load_;           // the same as displacements; empty: are some
+  linalg::Vector inverse_diagonal_;  // of K̂; empty if there are no loads
+  linalg::Vector moved_per_load_;    // the same as displacements; empty: are some
+  const DividedBody* divided_;  // of a solid, whose variables are displacements; null: all is here
   Eigen::Matrix<double, 6, 6> undeformed_;  // cᵀ D⁻¹ c of the patterns c
   model::Coupling used_, evaluated_;
   bool load_changed_ = true;

@@ -54,9 +54,11 @@ LargeStep::LargeStep(BodyStepOperator& op)
   algorithmic_new_ = scheme.algorithmic(0.0, 0.0, 1.0);
 }
 
-void LargeStep::form_right_side(const model::BodyState& before, const Vector& load,
+void LargeStep::form_right_side(const model::BodyState& before, const linalg::NodalVector& of_load,
                                 TaskPool* pool) {
   is_first_ = true;
+  if (is_divided()) return form_divided_right_side(before, of_load);
+  const Vector& load = of_load.whole();
   const InertialLoad& inertial = op_->inertial();
   const bool is_damped_otherwise = inertial.is_damped() && !inertial.is_proportional();
   scratch_.resize(rows_.rows());
@@ -87,9 +89,11 @@ void LargeStep::form_right_side(const model::BodyState& before, const Vector& lo
   if (load.size() > 0) rows_.for_pieces(pool, add_load);
 }
 
-void LargeStep::form_right_side_of_change(const Vector& before, const Vector& after,
-                                          TaskPool* pool) {
+void LargeStep::form_right_side_of_change(const linalg::NodalVector& load_before,
+                                          const linalg::NodalVector& load_after, TaskPool* pool) {
   is_first_ = false;
+  if (is_divided()) return form_divided_change(load_before, load_after);
+  const Vector &before = load_before.whole(), &after = load_after.whole();
   change_.resize(rows_.rows());
   rows_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
     change_.segment(first, size) =
@@ -158,16 +162,11 @@ void LargeStep::add_patterns(Index first, Index size, PartSums& sums) {
   }
 }
 
-void LargeStep::take_solution(const model::BodyState& before, VectorXd& y_free, TaskPool* pool) {
+void LargeStep::pass_solution(const model::BodyState& before, bool uses_patterns, bool has_both,
+                              TaskPool* pool) {
   const Scheme& scheme = op_->scheme();
-  const bool uses_patterns = before.terms.use_patterns() && op_->has_patterns();
   const bool adds = op_->inertial().share() != 0.0;
-  // Wilson's motion is sieved where the equations hold: at the end of the step the rule of linear
-  // acceleration would let a rigid part of the rates, rounding at first, grow by 2 + √3 per step.
   const bool at_evaluation = scheme.has_offset();
-  // Of a solid the same moments give rigid motion and patterns, and those of a change add to those
-  // of the whole.
-  const bool has_both = op_->nodal() != nullptr && !(is_first_ && at_evaluation);
   clear_sums();
   const Start start(before);
   rows_.for_pieces(pool, [&](int part, Index first, Index size) {
@@ -184,22 +183,41 @@ void LargeStep::take_solution(const model::BodyState& before, VectorXd& y_free, 
     }
     if (uses_patterns && !has_both) add_patterns(first, size, sums);
   });
+  for (PartSums& sums : sums_) {
+    if (op_->nodal() == nullptr) continue;
+    sums.rigid = op_->nodal()->rigid(sums.nodal_rigid);
+    sums.patterns = body::NodalMotion::patterns(has_both ? sums.nodal_rigid : sums.nodal_patterns);
+  }
+}
+
+void LargeStep::take_solution(const model::BodyState& before, VectorXd& y_free, TaskPool* pool) {
+  const Scheme& scheme = op_->scheme();
+  const bool uses_patterns = before.terms.use_patterns() && op_->has_patterns();
+  // Wilson's motion is sieved where the equations hold: at the end of the step the rule of linear
+  // acceleration would let a rigid part of the rates, rounding at first, grow by 2 + √3 per step.
+  const bool at_evaluation = scheme.has_offset();
+  // Of a solid the same moments give rigid motion and patterns, and those of a change add to those
+  // of the whole.
+  const bool has_both = op_->nodal() != nullptr && !(is_first_ && at_evaluation);
   if (is_first_) rigid_.setZero(op_->sieve().rank());
   if (is_first_ || !has_both) pattern_values_.setZero();
-  const Index interface = op_->num_interface_rows();
-  y_free.setZero(op_->num_rows());
   const double scale = is_first_ && at_evaluation ? 1.0 / scheme.weight : 1.0;
-  for (PartSums& sums : sums_) {
-    if (op_->nodal() != nullptr) {
-      sums.rigid = op_->nodal()->rigid(sums.nodal_rigid);
-      sums.patterns =
-          body::NodalMotion::patterns(has_both ? sums.nodal_rigid : sums.nodal_patterns);
-    }
+  const auto add = [&](const auto& sums) {
     rigid_ += scale * sums.rigid;
     pattern_values_ += sums.patterns;
+  };
+  const Index interface = op_->num_interface_rows();
+  y_free.setZero(op_->num_rows());
+  if (is_divided()) {
+    const SolutionSums sums = take_divided_solution(before, uses_patterns, has_both);
+    add(sums);
+    y_free.head(interface) = sums.interface;
+  } else {
+    pass_solution(before, uses_patterns, has_both, pool);
+    for (const PartSums& sums : sums_) add(sums);
+    y_free.head(interface).noalias() += op_->interface_rows() * free_;
   }
   if (uses_patterns) y_free.tail<6>() = pattern_values_;
-  y_free.head(interface).noalias() += op_->interface_rows() * free_;
   const Index used = uses_patterns ? y_free.size() : interface;
   y_free.head(used).noalias() -= op_->rigid_row_values().topRows(used) * rigid_;
 }
@@ -217,13 +235,13 @@ void LargeStep::form_end(const Start& before, Index first, Index size, const End
         scheme.acceleration_rate * increment + combination(acceleration_, before, first, size);
   }
   if (!holds_at_end_) {
-    d_e_.segment(first, size) =
+    after.d_e->segment(first, size) =
         scheme.weight * increment + combination(Weights{1.0} + offset_, before, first, size);
-    rate_e_.segment(first, size) =
+    after.rate_e->segment(first, size) =
         scheme.mean_rate * increment + combination(mean_velocity_, before, first, size);
-    if (op_->is_quasi_static()) rate_e_.segment(first, size).setZero();
-    acceleration_e_.segment(first, size) = after.d_ddot.segment(first, size);
-    after.d_ddot.segment(first, size) = carried_new_ * acceleration_e_.segment(first, size) +
+    if (op_->is_quasi_static()) after.rate_e->segment(first, size).setZero();
+    after.acceleration_e->segment(first, size) = after.d_ddot.segment(first, size);
+    after.d_ddot.segment(first, size) = carried_new_ * after.acceleration_e->segment(first, size) +
                                         carried_before_ * before.d_ddot.segment(first, size);
   }
   after.d_alg.segment(first, size) = algorithmic_new_ * after.d_ddot.segment(first, size) +
@@ -233,11 +251,14 @@ void LargeStep::form_end(const Start& before, Index first, Index size, const End
 
 void LargeStep::complete(const model::BodyState& before, const VectorXd& load,
                          const VectorXd& correction, model::BodyState& after, TaskPool* pool) {
+  if (is_divided()) return complete_divided(before, load, correction, after);
   const Index n = rows_.rows();
   const Start start(before);
-  const End end(after, n);
+  End end(after, n);
   if (!holds_at_end_) {
-    for (Vector* v : {&d_e_, &rate_e_, &acceleration_e_}) v->resize(n);
+    end.d_e = &d_e_.overwrite(n);
+    end.rate_e = &rate_e_.overwrite(n);
+    end.acceleration_e = &acceleration_e_.overwrite(n);
   }
   const linalg::Matrix& Phi = op_->sieve().stored_Phi();
   const body::NodalMotion* nodal = op_->nodal();

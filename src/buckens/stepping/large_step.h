@@ -32,12 +32,19 @@ class LargeStep {
   /// Forms the right-hand side of FM (37),  K̂ x_e = c θ F + M (m x₀ − cθ ẍ₀) + C (d x₀ − cθ ẋ₀),
   /// x₀ = x + offset, x⁺ = x + (x_e − x₀)/θ.
   /// @param load F, nodal load at the evaluation instant, n; empty for none
-  void form_right_side(const model::BodyState& before, const linalg::Vector& load, TaskPool* pool);
+  void form_right_side(const model::BodyState& before, const linalg::NodalVector& load,
+                       TaskPool* pool);
   /// Forms the right-hand side for the change of x⁺ by a change of F.
-  void form_right_side_of_change(const linalg::Vector& before, const linalg::Vector& after,
-                                 TaskPool* pool);
-  /// The right-hand side, to be solved in place.
+  void form_right_side_of_change(const linalg::NodalVector& before,
+                                 const linalg::NodalVector& after, TaskPool* pool);
+  /// The right-hand side, to be solved in place. @pre !is_divided()
   linalg::Vector& side() { return is_first_ ? free_ : change_; }
+  /// Whether other processes have the rows of all vectors (DividedBody).
+  bool is_divided() const { return op_->divided() != nullptr; }
+  /// Then: solves for the right-hand side, brings it here, or gives another one.
+  void solve_divided(const linalg::Factor& factor);
+  void bring_side(linalg::Vector& out) const;
+  void give_side(const linalg::Vector& side);
   /// Sieves the right-hand side, for a solver that iterates: what K̂⁻¹ makes of rigid motion would
   /// be sieved in any case, but counts in the error that a solve may have.
   void sieve_side();
@@ -59,14 +66,14 @@ class LargeStep {
                 const Eigen::VectorXd& correction, model::BodyState& after, TaskPool* pool);
 
   /// State where the equations of motion hold, after complete(): `after` itself at the end.
-  const linalg::Vector& d_e(const model::BodyState& after) const {
-    return holds_at_end_ ? after.d.whole() : d_e_;
+  const linalg::NodalVector& d_e(const model::BodyState& after) const {
+    return holds_at_end_ ? after.d : d_e_;
   }
-  const linalg::Vector& rate_e(const model::BodyState& after) const {
-    return holds_at_end_ ? after.d_dot.whole() : rate_e_;
+  const linalg::NodalVector& rate_e(const model::BodyState& after) const {
+    return holds_at_end_ ? after.d_dot : rate_e_;
   }
-  const linalg::Vector& acceleration_e(const model::BodyState& after) const {
-    return holds_at_end_ ? after.d_ddot.whole() : acceleration_e_;
+  const linalg::NodalVector& acceleration_e(const model::BodyState& after) const {
+    return holds_at_end_ ? after.d_ddot : acceleration_e_;
   }
   /// Whether all numbers at the end of the step are finite.
   bool is_finite() const { return is_finite_; }
@@ -107,6 +114,7 @@ class LargeStep {
           d_ddot(s.d_ddot.overwrite(n)),
           d_alg(s.d_alg.overwrite(n)) {}
     linalg::Vector &d, &d_dot, &d_ddot, &d_alg;
+    linalg::Vector *d_e = nullptr, *rate_e = nullptr, *acceleration_e = nullptr;
   };
   static auto combination(const Weights& w, const Start& s, Eigen::Index first, Eigen::Index size) {
     return w.d * s.d.segment(first, size) + w.rate * s.d_dot.segment(first, size) +
@@ -118,6 +126,22 @@ class LargeStep {
   void add_patterns(Eigen::Index first, Eigen::Index size, PartSums& sums);
   void estimate_solution(const model::BodyState& before, linalg::Vector& x);
   void form_end(const Start& before, Eigen::Index first, Eigen::Index size, const End& after);
+
+  /// What follows from a solution by sums over all rows.
+  struct SolutionSums {
+    Amplitudes rigid;
+    Eigen::Matrix<double, 6, 1> patterns = Eigen::Matrix<double, 6, 1>::Zero();
+    linalg::Vector interface;
+  };
+  struct Past;
+  void pass_solution(const model::BodyState& before, bool uses_patterns, bool has_both,
+                     TaskPool* pool);
+  void form_divided_right_side(const model::BodyState& before, const linalg::NodalVector& load);
+  void form_divided_change(const linalg::NodalVector& before, const linalg::NodalVector& after);
+  SolutionSums take_divided_solution(const model::BodyState& before, bool uses_patterns,
+                                     bool has_both);
+  void complete_divided(const model::BodyState& before, const Eigen::VectorXd& load,
+                        const Eigen::VectorXd& correction, model::BodyState& after);
 
   BodyStepOperator* op_;
   linalg::RowParts rows_;
@@ -141,7 +165,9 @@ class LargeStep {
   Amplitudes rigid_;
   Eigen::Matrix<double, 6, 1> pattern_values_;  // of free_
   std::vector<PartSums> sums_;
-  linalg::Vector d_e_, rate_e_, acceleration_e_;  // empty if the equations hold at the end
+  // Empty if the equations hold at the end.
+  linalg::NodalVector d_e_, rate_e_, acceleration_e_;
+  linalg::DividedVector free_there_, change_there_;  // in place of free_ and change_
   bool is_finite_ = true;
 };
 

@@ -123,9 +123,14 @@ linalg::Matrix Stepper::impulse_compliance(std::size_t body) const {
 
 void Stepper::add_impulse(std::size_t body, const Vector& impulse, Vector& rates) const {
   // c G f answers a load f; an impulse is answered by k₀ G.
-  Vector load = Vector::Zero(operators_[body]->num_rows());
+  const BodyStepOperator& op = *operators_[body];
+  Vector load = Vector::Zero(op.num_rows());
   load.head(impulse.size()) = scheme_.acceleration_rate * impulse;
-  operators_[body]->add_answer(load, 0, rates);
+  if (op.divided() == nullptr) {
+    op.add_answer(load, 0, rates);
+  } else if (!impulse.isZero(0.0)) {
+    rates += op.divided()->answer(load, scheme_.force);
+  }
 }
 
 }  // namespace buckens::stepping
