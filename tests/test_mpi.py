@@ -315,8 +315,8 @@ def test_vectors_of_a_step_stay_with_the_other_processes(mpirun, tmp_path, count
 
     Programs take an order, what it says, and sums: for values at the start of a step, the right-hand side, what follows from its solution, the
     end of the step, and interface values for the account of work. A solve takes an order and tells twice whether a process has failed. A record
-    asks for interface values by a program, brings displacements, rates and accelerations, and asks for the products of its energies by one order
-    and for its stresses by another.
+    asks for interface values by two programs, for itself and for the energies, brings displacements, rates and accelerations, and asks for the
+    products of its energies by one order and for its stresses by another.
     """
     (tmp_path / "cube.yaml").write_text(CUBE)
     change = sets("bodies.cube.coupling=none", "simulation.duration=1 ms", "output.every=1 ms")
@@ -328,7 +328,7 @@ def test_vectors_of_a_step_stay_with_the_other_processes(mpirun, tmp_path, count
     program, solve = 3 * others, 5 * others
     # Of the first process's rows of the factor, from all and back to all.
     through_factor = 2 * others
-    record = program + 3 * (2 * others) + 2 * (3 * others)
+    record = 2 * program + 3 * (2 * others) + 2 * (3 * others)
     # Displacements and rates are the same zeros at first, and both accelerations are the same.
     start = 2 * (4 * others)
     messages = summary["measures"]["messages_per_step"] * steps

@@ -54,10 +54,10 @@ bool Ranks::begin_rows_together(const Order& order, const BuckensGridDescription
   } else {
     std::vector<char> description;
     is_made = receive_description(description);
-    std::array<char, 400> error{};
+    std::array<char, kReason> error{};
     if (is_made &&
         maker_.begin_rows(order.number, description.data(), static_cast<long>(description.size()),
-                          error.data(), static_cast<int>(error.size())) != 0) {
+                          error.data(), kReason) != 0) {
       set_reason(error.data());
       is_made = false;
     }

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/linalg/column_maker.h"
 
-#include <cstdio>
-#include <exception>
-#include <new>
-
 #include "buckens/linalg/column_content.h"
 #include "buckens/linalg/finite_matrix.h"
+#include "buckens/linalg/told_errors.h"
 
 namespace buckens::linalg {
 
@@ -15,26 +12,21 @@ namespace {
 MakeColumns the_maker = nullptr;
 SparseMatrix last_columns;
 
-/// Errors end here: C is between them and the first process.
 int make_some(const void* bytes, long count, int first, int end, BuckensGridColumns* columns,
-              char* error, int error_size) try {
+              char* error, int error_size) {
   SparseMatrix().swap(last_columns);  // an assignment would keep the memory
   if (columns == nullptr) return 0;
-  const std::span description(static_cast<const std::byte*>(bytes),
-                              static_cast<std::size_t>(count));
-  SparseMatrix made = the_maker(description, first, end);
-  require_finite(made, first);
-  made.makeCompressed();
-  last_columns.swap(made);
-  *columns = {last_columns.outerIndexPtr(), last_columns.innerIndexPtr(), last_columns.valuePtr()};
-  return 0;
-} catch (const std::bad_alloc&) {
-  std::snprintf(error, static_cast<std::size_t>(error_size), "%s",
-                "there is too little memory for making the rows of the matrix");
-  return 1;
-} catch (const std::exception& failure) {
-  std::snprintf(error, static_cast<std::size_t>(error_size), "%s", failure.what());
-  return 1;
+  constexpr char kNoRoom[] = "there is too little memory for making the rows of the matrix";
+  return told_errors(error, error_size, kNoRoom, [&] {
+    const std::span description(static_cast<const std::byte*>(bytes),
+                                static_cast<std::size_t>(count));
+    SparseMatrix made = the_maker(description, first, end);
+    require_finite(made, first);
+    made.makeCompressed();
+    last_columns.swap(made);
+    *columns = {last_columns.outerIndexPtr(), last_columns.innerIndexPtr(),
+                last_columns.valuePtr()};
+  });
 }
 
 void add_content_of(int first, int end, const BuckensGridColumns* columns,

@@ -18,8 +18,8 @@ namespace buckens::linalg {
 /// once; writing to them makes them numbers of this process only.
 ///
 /// What whole() returns is valid until the object is written to or destroyed. What change() and
-/// overwrite() return is to be written to before the object is copied: later the copies would
-/// change, too.
+/// overwrite() return is to be written to before the object is copied or given to other processes:
+/// later the copies would change as well, and the numbers of other processes would not.
 ///
 /// Copies of one vector may be used by several threads; one object may be read by several threads
 /// at a time, but written to or copied from only while no other thread writes to it.
@@ -76,7 +76,7 @@ class NodalVector {
   // NOLINTNEXTLINE(google-explicit-constructor): for all that reads vectors
   operator const Vector&() const { return whole(); }
   /// Products of the rows N of a body with two of its vectors, by one order, if other processes
-  /// have both and this one has not brought them: so that they need not come. Otherwise empty.
+  /// have both, so that they need not come here. Otherwise empty.
   static std::vector<Vector> row_products(const NodalVector& x, const NodalVector& y);
   Eigen::Index size() const;
   double operator[](Eigen::Index k) const { return whole()[k]; }
@@ -97,7 +97,7 @@ class NodalVector {
     explicit Memory(Vector own) : numbers(std::move(own)) {}
     Vector numbers;
     std::atomic<int> holders{1};
-    // Of numbers that other processes have, too, or they only.
+    // Whether only other processes have the numbers; who has them, if they do; which they are.
     std::atomic<bool> is_elsewhere{false};
     std::shared_ptr<DividedVectors> of;
     DividedVector there;

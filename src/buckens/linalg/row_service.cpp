@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/linalg/row_service.h"
 
-#include <cstdio>
-#include <exception>
 #include <new>
 
 #include "buckens/linalg/row_worker.h"
+#include "buckens/linalg/told_errors.h"
 
 namespace buckens::linalg {
 
@@ -28,26 +27,14 @@ class Peers final : public RowPeers {
   const BuckensGridPeers* peers_;
 };
 
-/// Errors end here: C is between them and the first process. @return not zero after one
-template <class Action>
-int told(char* error, int error_size, Action&& action) try {
-  action();
-  return 0;
-} catch (const std::bad_alloc&) {
-  std::snprintf(error, static_cast<std::size_t>(error_size), "%s",
-                "there is too little memory for the rows of vectors");
-  return 1;
-} catch (const std::exception& failure) {
-  std::snprintf(error, static_cast<std::size_t>(error_size), "%s", failure.what());
-  return 1;
-}
+constexpr char kLittleMemory[] = "there is too little memory for the rows of vectors";
 
 std::span<const std::byte> as_bytes(const void* bytes, long count) {
   return {static_cast<const std::byte*>(bytes), static_cast<std::size_t>(count)};
 }
 
 int begin_rows(int number, const void* bytes, long count, char* error, int error_size) {
-  return told(error, error_size, [&] {
+  return told_errors(error, error_size, kLittleMemory, [&] {
     base::BytesFrom take(as_bytes(bytes, count));
     worker().add(number, described_rows(take));
   });
@@ -57,7 +44,7 @@ void end_rows(int number) { worker().remove(number); }
 
 int work_rows(const void* program, long count, const BuckensGridPeers* peers, const double** sums,
               long* num_sums, char* error, int error_size) {
-  return told(error, error_size, [&] {
+  return told_errors(error, error_size, kLittleMemory, [&] {
     Peers others(*peers);
     const std::span<const double> found = worker().work(as_bytes(program, count), others);
     *sums = found.data();

@@ -32,6 +32,7 @@ void RowWorker::remove(int space) {
   const Space* gone = spaces_.at(space).get();
   std::erase_if(vectors_, [gone](const auto& own) { return own.second.space == gone; });
   spaces_.erase(space);
+  spare_.clear();
 }
 
 std::span<double> RowWorker::rows(int space, int vector) {
