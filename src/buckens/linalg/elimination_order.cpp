@@ -21,12 +21,36 @@ namespace {
 // Below these numbers least degree fills as little and takes less time.
 constexpr int kManyColumns = 3000, kManyVertices = 200;
 
-std::span<const int> rows_of(const SparseMatrix& A, int column) {
-  const int begin = A.outerIndexPtr()[column];
-  const int count =
-      A.isCompressed() ? A.outerIndexPtr()[column + 1] - begin : A.innerNonZeroPtr()[column];
-  return {A.innerIndexPtr() + begin, static_cast<std::size_t>(count)};
-}
+/// The rows of columns of a matrix, each valid until the next is read.
+class RowsOfMatrix {
+ public:
+  explicit RowsOfMatrix(const SparseMatrix& A) : A_(&A) {}
+  std::span<const int> of(int column) {
+    const int begin = A_->outerIndexPtr()[column];
+    const int count = A_->isCompressed() ? A_->outerIndexPtr()[column + 1] - begin
+                                         : A_->innerNonZeroPtr()[column];
+    return {A_->innerIndexPtr() + begin, static_cast<std::size_t>(count)};
+  }
+
+ private:
+  const SparseMatrix* A_;
+};
+
+class RowsOfSum {
+ public:
+  explicit RowsOfSum(const MatrixSum& A) : A_(&A) {}
+  std::span<const int> of(int column) {
+    A_->read_column(column, entries_);
+    rows_.clear();
+    for (const MatrixSum::Entry& entry : entries_) rows_.push_back(entry.row);
+    return rows_;
+  }
+
+ private:
+  const MatrixSum* A_;
+  std::vector<MatrixSum::Entry> entries_;
+  std::vector<int> rows_;
+};
 
 /// A number that differs between columns with different rows, nearly always.
 std::uint64_t fingerprint(std::span<const int> rows) {
@@ -123,7 +147,8 @@ Lists transposed(const Lists& lists) {
 }
 
 /// Other vertices in the rows of the first column of each vertex.
-Lists listed_rows(const SparseMatrix& A, const std::vector<int>& vertex, const ColumnGraph& graph) {
+template <class Rows>
+Lists listed_rows(Rows& rows, const std::vector<int>& vertex, const ColumnGraph& graph) {
   Lists out;
   const std::size_t count = graph.first_column.size() - 1;
   std::vector<int> seen(count, -1);
@@ -131,7 +156,7 @@ Lists listed_rows(const SparseMatrix& A, const std::vector<int>& vertex, const C
   for (std::size_t v = 0; v < count; ++v) {
     const auto first = static_cast<std::size_t>(graph.first_column[v]);
     seen[v] = static_cast<int>(v);
-    for (const int row : rows_of(A, graph.columns[first])) {
+    for (const int row : rows.of(graph.columns[first])) {
       const int w = vertex[static_cast<std::size_t>(row)];
       if (std::exchange(seen[static_cast<std::size_t>(w)], static_cast<int>(v)) ==
           static_cast<int>(v))
@@ -145,8 +170,9 @@ Lists listed_rows(const SparseMatrix& A, const std::vector<int>& vertex, const C
 
 /// Neighbours by the rows of the first column of each vertex. Twice transposed lists are sorted,
 /// in a third of the time that sorting them takes.
-void list_neighbours(const SparseMatrix& A, const std::vector<int>& vertex, ColumnGraph& graph) {
-  Lists listing = transposed(listed_rows(A, vertex, graph));
+template <class Rows>
+void list_neighbours(Rows& rows, const std::vector<int>& vertex, ColumnGraph& graph) {
+  Lists listing = transposed(listed_rows(rows, vertex, graph));
   const Lists listed = transposed(listing);
   if (listing == listed) {  // each entry has its mirror image
     graph.begin = std::move(listing.begin);
@@ -188,18 +214,28 @@ std::vector<int> by_nested_dissection(const ColumnGraph& graph) {
   return {order.begin(), order.end()};
 }
 
+/// @param rows, others of the same matrix
+template <class Rows>
+ColumnGraph graph_of_rows(Eigen::Index columns, Rows rows, Rows others) {
+  std::vector<std::uint64_t> marks(static_cast<std::size_t>(columns));
+  for (std::size_t c = 0; c < marks.size(); ++c) {
+    marks[c] = fingerprint(rows.of(static_cast<int>(c)));
+  }
+  const std::vector<int> vertex = gather_columns(
+      marks, [&](int a, int b) { return std::ranges::equal(rows.of(a), others.of(b)); });
+  ColumnGraph graph = with_columns(vertex);
+  list_neighbours(rows, vertex, graph);
+  return graph;
+}
+
 }  // namespace
 
 ColumnGraph column_graph(const SparseMatrix& A) {
-  std::vector<std::uint64_t> marks(static_cast<std::size_t>(A.cols()));
-  for (std::size_t c = 0; c < marks.size(); ++c) {
-    marks[c] = fingerprint(rows_of(A, static_cast<int>(c)));
-  }
-  const std::vector<int> vertex = gather_columns(
-      marks, [&A](int a, int b) { return std::ranges::equal(rows_of(A, a), rows_of(A, b)); });
-  ColumnGraph graph = with_columns(vertex);
-  list_neighbours(A, vertex, graph);
-  return graph;
+  return graph_of_rows(A.cols(), RowsOfMatrix(A), RowsOfMatrix(A));
+}
+
+ColumnGraph column_graph(const MatrixSum& A) {
+  return graph_of_rows(A.size(), RowsOfSum(A), RowsOfSum(A));
 }
 
 std::vector<int> vertices_of(const std::vector<std::uint64_t>& marks) {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/matrix_sum.h"
 
 namespace buckens::linalg {
 
@@ -26,6 +26,8 @@ struct ColumnGraph {
 
 /// @param A square; an entry counts for both triangles
 ColumnGraph column_graph(const SparseMatrix& A);
+/// The same of a sum whose terms are formed, which is read column by column.
+ColumnGraph column_graph(const MatrixSum& A);
 
 /// Vertex of each column, those with the same mark being one; vertices are numbered by their first
 /// columns.

@@ -120,6 +120,19 @@ SparseMatrix MatrixSum::columns(Index first, Index count, Triangles which) const
   return out;
 }
 
+void MatrixSum::read_column(Index column, std::vector<Entry>& entries) const {
+  entries.clear();
+  visit_column(column, 0, [&entries](Index row, double value) {
+    entries.push_back({static_cast<int>(row), value});
+  });
+}
+
+void MatrixSum::form_terms() const {
+  for (const Term& term : terms_) {
+    if (term.nodes() == nullptr) (void)term.whole();
+  }
+}
+
 Vector MatrixSum::diagonal() const {
   Vector out = Vector::Zero(size());
   for (const Term& term : terms_) {
@@ -127,24 +140,6 @@ Vector MatrixSum::diagonal() const {
                                                     : Vector(term.always_whole->diagonal()));
   }
   return out;
-}
-
-const SparseMatrix* MatrixSum::widest() const {
-  const Term* most = nullptr;
-  for (const Term& term : terms_) {
-    if (most == nullptr || term.entries() > most->entries()) most = &term;
-  }
-  if (most == nullptr) return nullptr;
-  for (const Term& term : terms_) {
-    for (Index k = 0; k < size() && &term != most; ++k) {
-      ColumnEntries wide(*most, k);
-      for (ColumnEntries it(term, k); it; ++it) {
-        while (wide && wide.row() < it.row()) ++wide;
-        if (!wide || wide.row() != it.row()) return nullptr;
-      }
-    }
-  }
-  return &most->whole();
 }
 
 void MatrixSum::require_finite() const {

@@ -13,6 +13,9 @@ enum class Triangles { both, lower };
 /// columns at a time: what solves with A may need only a share of it at once.
 class MatrixSum {
  public:
+  MatrixSum() = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): A itself is such a sum
+  MatrixSum(const SparseMatrix& A) { add(1.0, A); }
   /// Adds w A. @param A of the size of the others, must outlive this object
   void add(double weight, const SparseMatrix& A) { terms_.push_back({weight, &A, nullptr}); }
   /// A matrix that may be divided among processes.
@@ -25,10 +28,16 @@ class MatrixSum {
   SparseMatrix columns(Eigen::Index first, Eigen::Index count,
                        Triangles which = Triangles::both) const;
   SparseMatrix whole() const { return columns(0, size()); }
+  struct Entry {
+    int row;
+    double value;
+  };
+  /// The same entries of one column. Of several threads at once only if all terms are formed.
+  /// @param entries are replaced
+  void read_column(Eigen::Index column, std::vector<Entry>& entries) const;
+  /// Has all terms in this process, so that threads may read columns.
+  void form_terms() const;
   Vector diagonal() const;
-  /// The term that has entries wherever others have some, which so has the pattern of the sum; null
-  /// if there is none.
-  const SparseMatrix* widest() const;
   /// @throws NumericalError if an entry of a term is not finite
   void require_finite() const;
 

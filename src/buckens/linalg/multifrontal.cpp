@@ -30,7 +30,7 @@ constexpr double kSharedFront = 2e7;
 
 class Multifrontal {
  public:
-  Multifrontal(const SparseMatrix& A, const SupernodeTree& tree, const TakeColumns& take,
+  Multifrontal(const MatrixSum& A, const SupernodeTree& tree, const TakeColumns& take,
                TaskPool* pool)
       : A_(A),
         tree_(tree),
@@ -226,11 +226,13 @@ class Multifrontal {
 
   void add_matrix(int s, const Front& f, const std::vector<int>& local) const {
     const int first = tree_.first_column[at(s)];
+    std::vector<MatrixSum::Entry> entries;
     for (int j = 0; j < tree_.columns(s); ++j) {
       double* to = f.column(j);
-      for (SparseMatrix::InnerIterator it(A_, tree_.permutation[at(first + j)]); it; ++it) {
-        const int row = place_[at(static_cast<int>(it.row()))];
-        if (row >= first + j) to[local[at(row)]] += it.value();
+      A_.read_column(tree_.permutation[at(first + j)], entries);
+      for (const auto& [of, value] : entries) {
+        const int row = place_[at(of)];
+        if (row >= first + j) to[local[at(row)]] += value;
       }
     }
   }
@@ -264,7 +266,7 @@ class Multifrontal {
 
   static std::size_t at64(std::ptrdiff_t k) { return static_cast<std::size_t>(k); }
 
-  const SparseMatrix& A_;
+  const MatrixSum& A_;
   const SupernodeTree& tree_;
   const TakeColumns& take_;
   TaskPool* pool_;
@@ -281,7 +283,7 @@ class Multifrontal {
 
 }  // namespace
 
-void factorise_fronts(const SparseMatrix& A, const SupernodeTree& tree, const TakeColumns& take,
+void factorise_fronts(const MatrixSum& A, const SupernodeTree& tree, const TakeColumns& take,
                       TaskPool* pool) {
   Multifrontal(A, tree, take, pool).run();
 }

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "buckens/base/task_pool.h"
-#include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/matrix_sum.h"
 #include "buckens/linalg/supernode_tree.h"
 
 namespace buckens::linalg {
@@ -23,10 +23,10 @@ using TakeColumns =
 /// from its rows, eliminates its columns by dense products (OpenBLAS) and leaves the rest to its
 /// parent. Threads take whole subtrees and single small fronts above them; all share the others,
 /// tile by tile. Sums and products are the same with any number of threads.
-/// @param A symmetric, both triangles stored
+/// @param A its terms are formed; it is read column by column, and need not exist as a whole
 /// @throws IndefiniteMatrix if A is not positive definite
 /// @throws std::bad_alloc
-void factorise_fronts(const SparseMatrix& A, const SupernodeTree& tree, const TakeColumns& take,
+void factorise_fronts(const MatrixSum& A, const SupernodeTree& tree, const TakeColumns& take,
                       TaskPool* pool);
 
 }  // namespace buckens::linalg

@@ -219,7 +219,7 @@ class PanelFactor::Layout {
   std::vector<int> first_panel_;
 };
 
-PanelFactor::PanelFactor(const SparseMatrix& A, const SupernodeTree& tree, SimdLevel level,
+PanelFactor::PanelFactor(const MatrixSum& A, const SupernodeTree& tree, SimdLevel level,
                          TaskPool* pool, const std::function<void(double bytes)>& begin)
     : size_(tree.size), kernels_(&panel_kernels(level)) {
   Layout layout(tree, *this);

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "buckens/base/task_pool.h"
+#include "buckens/linalg/matrix_sum.h"
 #include "buckens/linalg/panel_kernels.h"
 #include "buckens/linalg/streaming_memory.h"
 #include "buckens/linalg/supernode_tree.h"
@@ -41,12 +42,12 @@ class PanelFactor {
     std::unique_ptr<Meetings> meetings_;  // of the threads of a group
   };
 
-  /// Factorises A.
+  /// Factorises A, whose terms are formed.
   /// @param tree of A @param pool may share the work; changes no bit
   /// @param begin called with bytes() before the work begins
   /// @throws IndefiniteMatrix if A is not positive definite
   /// @throws std::bad_alloc
-  PanelFactor(const SparseMatrix& A, const SupernodeTree& tree, SimdLevel level, TaskPool* pool,
+  PanelFactor(const MatrixSum& A, const SupernodeTree& tree, SimdLevel level, TaskPool* pool,
               const std::function<void(double bytes)>& begin = {});
 
   /// Takes over what CHOLMOD has computed: the reference for tests and benchmarks.

@@ -72,8 +72,8 @@ class SharedFactor final : public Factor {
       matrix.weights = weights.data();
       matrix.num_terms = static_cast<int>(terms.size());
     } else {
-      const SparseMatrix* pattern = A.widest();
-      order = places_in_factor(column_graph(pattern != nullptr ? *pattern : A.whole()));
+      A.form_terms();
+      order = places_in_factor(column_graph(A));
       matrix.give = ColumnSource::give;
       matrix.source = &columns;
     }
@@ -198,7 +198,7 @@ std::shared_ptr<const Factor> make_large_factor(const SparseMatrix& A) {
 
 std::shared_ptr<const Factor> make_large_factor_of(const MatrixSum& A) {
   if (is_shared_work(A.size())) return std::make_shared<const SharedFactor>(A);
-  return make_cholesky(A.whole());
+  return std::make_shared<const SparseCholesky>(A);
 }
 
 void ColumnSource::give(void* source, int first, int end, BuckensGridColumns* columns) {

@@ -48,6 +48,15 @@ struct SparseCholesky::Backend {
   std::mutex turn;  // guards what follows and `factor`
   PanelFactor::Workspace workspace;
 
+  void factorise(const MatrixSum& A) {
+    A.form_terms();
+    // The key of a factor that is kept in a folder is that of the whole matrix.
+    if (!FactorCache::folder().empty()) return factorise(A.whole(), {});
+    size = A.size();
+    A.require_finite();
+    make_panels(A, A, best_simd_level(), nullptr);
+  }
+
   void factorise(const SparseMatrix& A, const CholeskyOptions& options) {
     size = A.rows();
     require_finite(A);
@@ -55,25 +64,38 @@ struct SparseCholesky::Backend {
       factor = CholmodFactor::make(A, {false, options.most_narrow_entries});
       entries = factor->num_entries();
     } else {
-      make_panels(A, options);
+      find_panels(A, options.simd);
     }
   }
 
-  void make_panels(const SparseMatrix& A, const CholeskyOptions& options) {
+  /// Takes the panels from the folder of factors, or makes them and keeps them there.
+  void find_panels(const SparseMatrix& A, SimdLevel simd) {
+    if (FactorCache::folder().empty()) return make_panels(A, A, simd, nullptr);
+    const PanelFile file(FactorCache::folder(), A);
+    try {
+      if (take_stored(file, simd)) return;
+    } catch (const std::bad_alloc&) {
+      throw too_little_memory("factorise", size, 0.0);
+    }
+    make_panels(A, A, simd, &file);
+  }
+
+  /// @param pattern A itself, or one that has its pattern
+  /// @param file where they are kept if they are worth it, or null
+  template <class Pattern>
+  void make_panels(const MatrixSum& A, const Pattern& pattern, SimdLevel simd,
+                   const PanelFile* file) {
     double bytes = 0.0;
     try {
-      std::optional<PanelFile> file;
-      if (!FactorCache::folder().empty()) file.emplace(FactorCache::folder(), A);
-      if (file && take_stored(*file, options.simd)) return;
       FactorWork work(size);
-      const SupernodeTree tree = find_supernode_tree(A);
+      const SupernodeTree tree = find_supernode_tree(pattern);
       entries = tree.num_entries;
       FactorPool pool(tree.num_products);
-      panels.emplace(A, tree, options.simd, pool.get(), [&](double needed) {
+      panels.emplace(A, tree, simd, pool.get(), [&](double needed) {
         bytes = needed;
         work.begin(bytes);
       });
-      if (file && bytes >= kWorthKeeping) file->write(*panels, entries);
+      if (file != nullptr && bytes >= kWorthKeeping) file->write(*panels, entries);
     } catch (const std::bad_alloc&) {
       throw too_little_memory("factorise", size, bytes);
     }
@@ -111,6 +133,10 @@ struct SparseCholesky::Backend {
 SparseCholesky::SparseCholesky(const SparseMatrix& A, const CholeskyOptions& options)
     : backend_(std::make_unique<Backend>()) {
   backend_->factorise(A, options);
+}
+
+SparseCholesky::SparseCholesky(const MatrixSum& A) : backend_(std::make_unique<Backend>()) {
+  backend_->factorise(A);
 }
 
 SparseCholesky::~SparseCholesky() = default;

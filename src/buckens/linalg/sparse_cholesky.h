@@ -7,6 +7,7 @@
 
 #include "buckens/linalg/cholmod_factor.h"
 #include "buckens/linalg/factor.h"
+#include "buckens/linalg/matrix_sum.h"
 #include "buckens/linalg/simd_level.h"
 
 namespace buckens::linalg {
@@ -38,6 +39,9 @@ class SparseCholesky final : public Factor {
   /// @throws IndefiniteMatrix if A is not positive definite
   /// @throws NumericalError if A is not finite or its factor does not fit into memory
   explicit SparseCholesky(const SparseMatrix& A, const CholeskyOptions& options = {});
+  /// The same of a sum, which never exists as a whole: 1 kB per variable of solids less. The same
+  /// bits.
+  explicit SparseCholesky(const MatrixSum& A);
   ~SparseCholesky() override;
   SparseCholesky(SparseCholesky&&) noexcept;
   SparseCholesky& operator=(SparseCholesky&&) noexcept;

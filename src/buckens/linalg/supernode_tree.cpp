@@ -252,6 +252,11 @@ SupernodeTree find_supernode_tree(const SparseMatrix& A) {
   return Elimination(graph).tree();
 }
 
+SupernodeTree find_supernode_tree(const MatrixSum& A) {
+  const ColumnGraph graph = column_graph(A);
+  return Elimination(graph).tree();
+}
+
 SupernodeTree supernode_tree(const Supernodes& source) {
   const auto count = static_cast<std::size_t>(source.count);
   SupernodeTree tree;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/matrix_sum.h"
 #include "buckens/linalg/supernodes.h"
 
 namespace buckens::linalg {
@@ -42,6 +42,7 @@ struct SupernodeTree {
 /// that stores few zeros (Ashcraft and Grimes 1989).
 /// @param A symmetric, both triangles stored; the values are not read
 SupernodeTree find_supernode_tree(const SparseMatrix& A);
+SupernodeTree find_supernode_tree(const MatrixSum& A);
 
 /// The structure of a factor that CHOLMOD has computed.
 SupernodeTree supernode_tree(const Supernodes& source);

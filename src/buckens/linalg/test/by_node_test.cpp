@@ -108,20 +108,8 @@ TEST(ByNode, IsATermOfASum) {
   EXPECT_EQ(Matrix(sum.columns(5, 9, Triangles::lower)),
             Matrix(expected.columns(5, 9, Triangles::lower)));
   EXPECT_EQ(sum.diagonal(), expected.diagonal());
-  EXPECT_EQ(sum.widest(), &wide);
   sum.require_finite();
   EXPECT_FALSE(A.is_formed());
-}
-
-TEST(ByNode, MayBeTheWidestTermOfASum) {
-  const auto nodes = of_nodes();
-  const SymmetricMatrix A = SymmetricMatrix::by_node(nodes);
-  SparseMatrix diagonal(A.rows(), A.cols());
-  diagonal.setIdentity();
-  MatrixSum sum;
-  sum.add(1.0, diagonal);
-  sum.add(1.0, A);
-  EXPECT_EQ(Matrix(*sum.widest()), Matrix(entries_of(*nodes)));
 }
 
 TEST(ByNode, EntriesThatAreNotFiniteAreRefused) {

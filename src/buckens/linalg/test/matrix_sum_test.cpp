@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/linalg/elimination_order.h"
+#include "buckens/linalg/factor_threads.h"
+#include "buckens/linalg/sparse_cholesky.h"
 #include "buckens/linalg/test/definite_matrices.h"
 
 namespace buckens::linalg {
@@ -78,15 +82,13 @@ TEST(MatrixSumTest, LowerTrianglesOfRunsOfColumnsMakeUpThatOfTheWhole) {
   }
 }
 
-TEST(MatrixSumTest, TheWidestTermHasThePatternOfTheSumOrThereIsNone) {
+TEST(MatrixSumTest, HasTheGraphOfTheWhole) {
   const SumOfThree of;
-  EXPECT_EQ(of.sum.widest(), nullptr) << "the few entries lie beside the grid";
-  MatrixSum two;
-  EXPECT_EQ(two.widest(), nullptr);
-  two.add(1.0, of.diagonal);
-  EXPECT_EQ(two.widest(), &of.diagonal);
-  two.add(2.0, of.grid);
-  EXPECT_EQ(two.widest(), &of.grid);
+  const ColumnGraph graph = column_graph(of.sum), expected = column_graph(of.sum.whole());
+  EXPECT_EQ(graph.first_column, expected.first_column);
+  EXPECT_EQ(graph.columns, expected.columns);
+  EXPECT_EQ(graph.begin, expected.begin);
+  EXPECT_EQ(graph.neighbours, expected.neighbours);
 }
 
 TEST(MatrixSumTest, NothingIsOfSizeZero) {
@@ -99,6 +101,56 @@ TEST(MatrixSumTest, RefusesEntriesThatAreNotFinite) {
   of.sum.require_finite();
   of.few.valuePtr()[1] = std::numeric_limits<double>::infinity();
   EXPECT_THROW(of.sum.require_finite(), NumericalError);
+}
+
+TEST(MatrixSumTest, ReadsOneColumnAsTheWholeHasIt) {
+  const SumOfThree of;
+  const SparseMatrix whole = of.sum.whole();
+  std::vector<MatrixSum::Entry> entries(3);
+  for (int k = 0; k < whole.cols(); ++k) {
+    of.sum.read_column(k, entries);
+    std::size_t at = 0;
+    for (SparseMatrix::InnerIterator it(whole, k); it; ++it, ++at) {
+      ASSERT_LT(at, entries.size());
+      EXPECT_EQ(entries[at].row, it.row());
+      EXPECT_EQ(entries[at].value, it.value());
+    }
+    EXPECT_EQ(at, entries.size());
+  }
+}
+
+// As K̂ = m M + k K of solids, M by node, and with entries of another term that K has not.
+TEST(MatrixSumTest, FactorsReadItColumnByColumn) {
+  const SparseMatrix K = matrices::grid(9, 0.3);
+  const auto nodes = std::make_shared<SparseMatrix>(K.cols() / 3, K.cols() / 3);
+  nodes->setIdentity();
+  const SymmetricMatrix M = SymmetricMatrix::by_node(nodes);
+  SparseMatrix beside(K.cols(), K.cols());
+  const std::vector<Triplet> entries = {{0, 2000, 0.01}, {2000, 0, 0.01}};
+  beside.setFromTriplets(entries.begin(), entries.end());
+  const Vector b = scattered_block(K.cols(), 1, 3);
+  for (const int threads : {1, 2}) {
+    const FactorThreads allowed(threads);
+    MatrixSum sum;
+    sum.add(7.7, M);
+    sum.add(1.0 / 3.0, K);
+    for (int round = 0; round < 2; ++round) {
+      Vector x = b, expected = b;
+      SparseCholesky(sum).solve_in_place(x);
+      SparseCholesky(sum.whole()).solve_in_place(expected);
+      EXPECT_EQ(x, expected) << threads << " " << round;
+      sum.add(1.0, beside);
+    }
+  }
+}
+
+TEST(MatrixSumTest, FactorsOfASumRefuseWhatIsNotFiniteOrDefinite) {
+  SparseMatrix K = matrices::grid(4, 0.3);
+  MatrixSum sum;
+  sum.add(-1.0, K);
+  EXPECT_THROW(SparseCholesky{sum}, IndefiniteMatrix);
+  K.coeffRef(5, 5) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(SparseCholesky{sum}, NumericalError);
 }
 
 }  // namespace
