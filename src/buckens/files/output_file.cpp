@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/files/replaced_file.h"
 
 namespace buckens::files {
 
@@ -147,25 +148,11 @@ void sync_to_disk(const std::filesystem::path& path) {
 }
 
 void replace_text_file(const std::filesystem::path& path, std::string_view text, Lasting lasting) {
-  std::filesystem::path part = path;
-  part += ".part";
-  std::error_code error;
-  try {
+  replace_file(path, lasting, [text](const std::filesystem::path& part) {
     OutputFile file(part, OutputFile::Start::anew);
     file.write(text);
     file.close();
-    if (lasting == Lasting::power) sync_to_disk(part);
-    std::filesystem::rename(part, path, error);
-    if (error) {
-      throw IoError(
-          fmt::format("{}: cannot replace the file: {}.", path.string(), error.message()));
-    }
-    if (lasting == Lasting::power) sync_to_disk(path.has_parent_path() ? path.parent_path() : ".");
-  } catch (...) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    throw;
-  }
+  });
 }
 
 std::string utc_now() {

@@ -22,8 +22,8 @@ namespace {
 
 /// What the property list of a file hands on to the driver.
 struct DriverSettings {
-  files::WriteProcess* writer;  // null: the file is read
-  Hdf5WriteFault* fault;
+  files::WriteProcess* writer;  // null: this process
+  Hdf5WriteFault* fault;        // null: the file is read
   Hdf5Undo* undo;
   const Undone* undone;
 };
@@ -43,6 +43,21 @@ struct DriverFile {
 DriverFile& file_of(H5FD_t* base) { return *reinterpret_cast<DriverFile*>(base); }
 const DriverFile& file_of(const H5FD_t* base) { return *reinterpret_cast<const DriverFile*>(base); }
 
+/// @return 0 or the error number
+int write_bytes(const DriverFile& file, haddr_t address, const std::uint8_t* bytes,
+                std::size_t size) {
+  if (file.writer != nullptr) return file.writer->write(address, bytes, size);
+  while (size > 0) {
+    const ssize_t count = ::pwrite(file.descriptor, bytes, size, static_cast<off_t>(address));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return errno;
+    address += static_cast<haddr_t>(count);
+    bytes += count;
+    size -= static_cast<std::size_t>(count);
+  }
+  return 0;
+}
+
 void end_writing(DriverFile& file, int error) {
   if (!file.fault->ended) file.fault->error = error;
   file.fault->ended = true;
@@ -54,7 +69,7 @@ void commit(DriverFile& file) {
   int error = file.undo->sync();
   for (std::size_t k = 0; k < file.held.size() && error == 0; ++k) {
     const FileBytes& write = file.held[k];
-    error = file.writer->write(write.address, write.bytes.data(), write.bytes.size());
+    error = write_bytes(file, write.address, write.bytes.data(), write.bytes.size());
   }
   if (error != 0) return end_writing(file, error);
   file.held.clear();
@@ -77,7 +92,7 @@ H5FD_t* open_file(const char* name, unsigned, hid_t access, haddr_t) {
     settings.fault->error = errno;
     return nullptr;
   }
-  settings.fault->error = settings.writer->take_file(descriptor);
+  if (settings.writer != nullptr) settings.fault->error = settings.writer->take_file(descriptor);
   auto* file = settings.fault->error != 0
                    ? nullptr
                    : new (std::nothrow) DriverFile{
@@ -132,7 +147,7 @@ herr_t read_file(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, std::size_t s
   auto* bytes = static_cast<std::uint8_t*>(buffer);
   const std::size_t wanted = size;
   std::size_t done = 0;
-  if (file.writer == nullptr && address + size > file.end) {
+  if (file.fault == nullptr && address + size > file.end) {
     // What came after the checkpoint is not there.
     size = address < file.end ? static_cast<std::size_t>(file.end - address) : 0;
     std::memset(bytes + size, 0, wanted - size);
@@ -169,7 +184,7 @@ herr_t write_file(H5FD_t* base, H5FD_mem_t kind, hid_t, haddr_t address, std::si
     waits = file.undo->is_waiting();
   }
   if (!file.fault->ended && !waits) {
-    const int error = file.writer->write(address, bytes, size);
+    const int error = write_bytes(file, address, bytes, size);
     if (error != 0) end_writing(file, error);
   }
   if (file.fault->ended || waits) {
@@ -252,6 +267,12 @@ bool set_write_driver(hid_t access, files::WriteProcess& writer, Hdf5WriteFault&
                       Hdf5Undo* undo) {
   const hid_t id = driver_id();
   const DriverSettings settings{&writer, &fault, undo, nullptr};
+  return id >= 0 && H5Pset_driver(access, id, &settings) >= 0;
+}
+
+bool set_plain_driver(hid_t access, Hdf5WriteFault& fault) {
+  const hid_t id = driver_id();
+  const DriverSettings settings{nullptr, &fault, nullptr, nullptr};
   return id >= 0 && H5Pset_driver(access, id, &settings) >= 0;
 }
 

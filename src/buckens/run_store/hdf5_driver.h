@@ -37,6 +37,10 @@ struct Hdf5WriteFault {
 bool set_write_driver(hid_t access, files::WriteProcess& writer, Hdf5WriteFault& fault,
                       Hdf5Undo* undo);
 
+/// Writes a file of this process alone in the same way, but by this process, for files that take
+/// another name once they are complete.
+bool set_plain_driver(hid_t access, Hdf5WriteFault& fault);
+
 /// Reads a file as it was at a checkpoint. @param undone must outlive the file
 /// @return false if HDF5 refuses
 bool set_undone_driver(hid_t access, const Undone& undone);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -14,6 +15,8 @@
 #include "buckens/base/checksum.h"
 #include "buckens/base/errors.h"
 #include "buckens/files/output_file.h"
+#include "buckens/files/replaced_file.h"
+#include "buckens/run_store/hdf5_driver.h"
 #include "buckens/run_store/hdf5_file.h"
 #include "buckens/run_store/run_files.h"
 
@@ -23,24 +26,32 @@ namespace {
 
 constexpr std::string_view kMark = "\nbuckens state\n";
 constexpr std::string_view kHdf5Mark = "\x89HDF";
-constexpr std::size_t kIncrement = 1 << 16;  // by which a file in memory grows, filled with zeros
+constexpr std::size_t kIncrement = 1 << 16;  // by which a file in memory grows
+constexpr std::size_t kPiece = 1 << 20;      // of a file whose checksum is taken
 
-std::string trailer(std::string_view bytes) {
-  std::string out = fmt::format("{}format {}\nbytes {}\nchecksum {:016x}\n", kMark, kStateFormat,
-                                bytes.size(), base::checksum(bytes));
+std::string trailer(std::uintmax_t size, std::uint64_t checksum) {
+  std::string out =
+      fmt::format("{}format {}\nbytes {}\nchecksum {:016x}\n", kMark, kStateFormat, size, checksum);
   out.insert(out.size() - 1, kStateTrailer - out.size(), ' ');
   return out;
 }
+
+std::string trailer(std::string_view bytes) { return trailer(bytes.size(), base::checksum(bytes)); }
 
 hid_t sound(hid_t id, const char* what) {
   if (id < 0) throw IoError(fmt::format("cannot {}: {}", what, hdf5_reason()));
   return id;
 }
 
-Hdf5Handle settings_in_memory() {
+Hdf5Handle settings_of_states() {
   Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   // Images of newer formats have a checksum that their own writer has made wrong (HDF5 1.10).
   H5Pset_libver_bounds(access.get(), H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST);
+  return access;
+}
+
+Hdf5Handle settings_in_memory() {
+  Hdf5Handle access = settings_of_states();
   sound(H5Pset_fapl_core(access.get(), kIncrement, 0), "keep a file in memory");
   return access;
 }
@@ -215,6 +226,43 @@ std::vector<std::string> unpacked(const std::vector<std::uint8_t>& bytes) {
   return out;
 }
 
+/// Writes list after list, so that the file never exists in memory.
+void write_content(const base::SavedValues& state, const std::filesystem::path& path) {
+  const Hdf5Quiet quiet;
+  const Hdf5Handle access = settings_of_states();
+  Hdf5WriteFault fault;
+  if (!set_plain_driver(access.get(), fault)) {
+    throw IoError(fmt::format("cannot write a state: {}", hdf5_reason()));
+  }
+  Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose);
+  if (fault.error == 0) {
+    sound(file.get(), "write a state");
+    put_group(file.get(), "numbers", state.numbers, state.singles);
+    put_group(file.get(), "counts", state.counts);
+    put_group(file.get(), "texts", packed(state));
+    file.reset();
+  }
+  if (fault.error == 0) return;
+  throw IoError(fmt::format("{}: cannot write the file: {}", path.string(),
+                            files::system_reason(fault.error)));
+}
+
+std::string trailer_of(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::vector<char> piece(kPiece);
+  std::uint64_t checksum = base::checksum({});
+  std::uintmax_t size = 0;
+  while (in.read(piece.data(), static_cast<std::streamsize>(piece.size())), in.gcount() > 0) {
+    const auto count = static_cast<std::size_t>(in.gcount());
+    checksum = base::checksum({piece.data(), count}, checksum);
+    size += count;
+  }
+  if (in.bad() || size != std::filesystem::file_size(path)) {
+    throw IoError(fmt::format("{}: cannot read what was written; write elsewhere", path.string()));
+  }
+  return trailer(size, checksum);
+}
+
 /// HDF5 copies what it gets, and asks for memory that it could write to.
 Hdf5Handle opened(std::string_view content) {
   const Hdf5Handle access = settings_in_memory();
@@ -257,26 +305,6 @@ std::string_view checked(std::string_view bytes, const std::string& name) {
 
 }  // namespace
 
-std::string state_bytes(const base::SavedValues& state) {
-  const Hdf5Quiet quiet;
-  Hdf5Handle file(sound(H5Fcreate("state", H5F_ACC_TRUNC, H5P_DEFAULT, settings_in_memory().get()),
-                        "keep a state in memory"),
-                  H5Fclose);
-  put_group(file.get(), "numbers", state.numbers, state.singles);
-  put_group(file.get(), "counts", state.counts);
-  put_group(file.get(), "texts", packed(state));
-  sound(H5Fflush(file.get(), H5F_SCOPE_GLOBAL), "complete a state");
-  const ssize_t size = H5Fget_file_image(file.get(), nullptr, 0);
-  sound(size < 0 ? -1 : 0, "complete a state");
-  std::string out;
-  out.reserve(static_cast<std::size_t>(size) + kStateTrailer);
-  out.resize(static_cast<std::size_t>(size));
-  sound(H5Fget_file_image(file.get(), out.data(), out.size()) < 0 ? -1 : 0, "complete a state");
-  file.reset();
-  out += trailer(out);
-  return out;
-}
-
 std::string sealed(std::string_view content) { return std::string(content) + trailer(content); }
 
 base::SavedValues parse_state(std::string_view bytes, const std::string& name) {
@@ -298,7 +326,11 @@ base::SavedValues parse_state(std::string_view bytes, const std::string& name) {
 }
 
 void write_state(const base::SavedValues& state, const std::filesystem::path& path) {
-  files::replace_text_file(path, state_bytes(state), files::Lasting::power);
+  files::replace_file(path, files::Lasting::power, [&state](const std::filesystem::path& part) {
+    write_content(state, part);
+    const std::string end = trailer_of(part);
+    files::OutputFile(part, files::OutputFile::Start::as_it_is).write(end);
+  });
 }
 
 base::SavedValues read_state(const std::filesystem::path& path) {

@@ -10,7 +10,7 @@
 namespace buckens::run_store {
 
 /// Writes a saved state to a file atomically: readers see a whole state or none, also after a loss
-/// of power.
+/// of power. It is written list after list and takes no memory beside the state.
 ///
 /// An HDF5 file: of numbers, counts and texts a group each with `names` (joined by line ends),
 /// `lengths` and `values`. The last kStateTrailer bytes are text that identifies the file and
@@ -22,11 +22,9 @@ void write_state(const base::SavedValues& state, const std::filesystem::path& pa
 /// truncated or damaged
 base::SavedValues read_state(const std::filesystem::path& path);
 
-/// The contents of such a file.
-std::string state_bytes(const base::SavedValues& state);
 /// The bytes of an HDF5 file with their trailer.
 std::string sealed(std::string_view content);
-/// @param name of the file in messages
+/// Of the contents of such a file. @param name of the file in messages
 base::SavedValues parse_state(std::string_view bytes, const std::string& name);
 
 inline constexpr int kStateFormat = 1;
