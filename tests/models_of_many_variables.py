@@ -123,6 +123,12 @@ simulation: {duration: 0.5 ms, step: 0.1 ms}
 output: {every: 0.1 ms, sensors: {force: {joint-force: ball}, corner: {position: cube/corner_111}}}
 """
 
+# Two of them, which have one factor.
+TWINS = CUBE.replace("joints:", "  other:\n    like: cube\n    at: {position: [0.2, -0.05, -0.05]}\njoints:").replace(
+    "{ball: {spherical: {between: [ground, cube/bearing]}}}",
+    "{ball: {spherical: {between: [ground, cube/bearing]}}, second: {spherical: {between: [ground, other/bearing]}}}").replace(
+    "{position: cube/corner_111}", "{position: cube/corner_111}, far: {position: other/corner_111}")
+
 # A ball strikes the face opposite the bearing within the second step.
 BLOW = CUBE.replace("bearing: {face: x0}", "bearing: {face: x0}, struck: {face: x1}").replace("joints:", """\
   shot: {rigid: {mass: 0.2 kg, inertia: [1e-4, 1e-4, 1e-4]}, at: {position: [0.12015, 0, 0]}}

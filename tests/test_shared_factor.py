@@ -10,7 +10,7 @@ import pytest
 
 from conftest import PROGRAM
 
-from test_mpi import ENVIRONMENT, MPIRUN, several
+from mpi_runs import ENVIRONMENT, MPIRUN, several
 
 PLUGIN = os.environ.get("BUCKENS_GRID_PLUGIN") or pathlib.Path(PROGRAM).resolve().parent.parent / "lib" / "libbuckens_petsc.so"
 SUPPORT = pathlib.Path(__file__).parent / "support"

@@ -156,7 +156,11 @@ class Ranks {
   bool put_rows_together(const Order& order, const double* values);
   void take_rows_together(const Order& order, double* values);
   bool solve_rows_together(const Order& order);
-  std::unique_ptr<Way> find_way(const std::vector<int>& variables, const Runs& runs) const;
+  void multiply_among_others(int matrix, const double* x, double* y);
+  static void exchange_numbers(void* context, const int* out_counts, const double* out,
+                               const int* in_counts, double* in);
+  static int multiply_here(void* context, int matrix, const double* x, double* y);
+  static void find_pairs(void* context, int number, float** loads, float** answers);
   bool has_failed_somewhere(bool has_failed);
 
   MPI_Comm orders_ = MPI_COMM_NULL, work_ = MPI_COMM_NULL;

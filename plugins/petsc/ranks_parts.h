@@ -74,11 +74,21 @@ struct Ranks::Order {
   }
 };
 
-/// How numbers come from the processes that have rows of a vector to those that have them in a
-/// factor, and back.
+/// How numbers come from the processes that have rows of a vector to those that want some of them,
+/// such as those that have them in a factor, and back.
 struct Ranks::Way {
+  /// Each process tells those with rows of the variables that it wants. All of `comm` call it.
+  /// @param first rows of its processes, and the end
+  Way(const std::vector<int>& variables, const int* first, MPI_Comm comm);
+  /// @param rows here @param wanted gets the numbers of the variables
+  void bring(const double* rows, double* wanted);
+  /// Numbers of the variables come to those with their rows.
+  /// @param adds to what is there, process after process, instead of replacing it
+  void give_back(const double* wanted, double* rows, bool adds);
+
+  MPI_Comm comm;
   std::vector<int> given;   // rows here, for one process after the other
-  std::vector<int> places;  // in the factor here, of what one process after the other gives
+  std::vector<int> places;  // among the variables, of what one process after the other gives
   std::vector<int> out_counts, out_first, in_counts, in_first;
   std::vector<double> out, in;
 };
@@ -115,6 +125,8 @@ struct Ranks::Divided {
   std::vector<int> variables;  // ascending; of a symmetric one they begin with the columns here
   // Of the first process: `variables` of all, one process after the other.
   std::vector<int> lists, list_first, list_counts;
+  // Of the others: to `variables` behind the columns here; null before it is used.
+  std::unique_ptr<Way> way;
 
   /// Columns here.
   int count() const { return static_cast<int>(starts.size()) - 1; }

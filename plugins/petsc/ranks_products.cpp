@@ -119,4 +119,24 @@ void Ranks::form_products(const std::vector<const Divided*>& matrices) {
   send(sent.data(), back, 0, work_);
 }
 
+/// y = A x, each process its rows of both: entries of x come from others, and what its columns add
+/// to their rows goes back.
+void Ranks::multiply_among_others(int matrix, const double* x, double* y) {
+  Divided& A = *shared_->matrices.at(matrix);
+  const auto here = static_cast<std::size_t>(A.counts[rank_]);
+  if (!A.way) {
+    const std::vector<int> beside(A.variables.begin() + A.counts[rank_], A.variables.end());
+    A.way = std::make_unique<Way>(beside, A.first.data() + 1, others_);
+  }
+  std::vector<double>& all = shared_->share;
+  std::vector<double>& products = shared_->results;
+  all.resize(A.variables.size());
+  products.assign(A.variables.size(), 0.0);
+  std::copy_n(x, here, all.begin());
+  A.way->bring(x, all.data() + here);
+  A.add_symmetric(A.counts[rank_], all.data(), products.data());
+  std::copy_n(products.begin(), here, y);
+  A.way->give_back(products.data() + here, y, true);
+}
+
 }  // namespace buckens_petsc

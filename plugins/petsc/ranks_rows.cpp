@@ -18,18 +18,29 @@ constexpr int kReason = 400;                                  // characters
 constexpr double kHasFailed = 1.0;
 constexpr int kAborted = 4;  // exit code of numerical errors
 
-void exchange_numbers(void* context, const int* out_counts, const double* out, const int* in_counts,
-                      double* in) {
-  const MPI_Comm others = *static_cast<MPI_Comm*>(context);
-  int count = 0;
-  MPI_Comm_size(others, &count);
-  const std::vector<int> out_first = starts_of({out_counts, out_counts + count});
-  const std::vector<int> in_first = starts_of({in_counts, in_counts + count});
+}  // namespace
+
+/// Among the others; a Ranks as context.
+void Ranks::exchange_numbers(void* context, const int* out_counts, const double* out,
+                             const int* in_counts, double* in) {
+  const Ranks& own = *static_cast<Ranks*>(context);
+  const std::vector<int> out_first = starts_of({out_counts, out_counts + own.count_ - 1});
+  const std::vector<int> in_first = starts_of({in_counts, in_counts + own.count_ - 1});
   MPI_Alltoallv(out, out_counts, out_first.data(), MPI_DOUBLE, in, in_counts, in_first.data(),
-                MPI_DOUBLE, others);
+                MPI_DOUBLE, own.others_);
 }
 
-}  // namespace
+int Ranks::multiply_here(void* context, int matrix, const double* x, double* y) {
+  Ranks& own = *static_cast<Ranks*>(context);
+  const bool is_done = has_memory_for([&] { own.multiply_among_others(matrix, x, y); });
+  return is_done ? 0 : 1;
+}
+
+void Ranks::find_pairs(void* context, int number, float** loads, float** answers) {
+  const Pairs& pairs = *static_cast<Ranks*>(context)->shared_->pairs.at(number);
+  *loads = pairs.loads.get();
+  *answers = pairs.answers.get();
+}
 
 void Ranks::runs(int size, int* first) const {
   const std::vector<int> all = runs_of_others(size, count_);
@@ -88,7 +99,7 @@ bool Ranks::work_rows_together(const Order& order, const void* program, double* 
   const double* own = nullptr;
   long num_sums = 0;
   std::array<char, kReason> error{};
-  const BuckensGridPeers peers{exchange_numbers, &others_, count_ - 1};
+  const BuckensGridPeers peers{exchange_numbers, multiply_here, find_pairs, this};
   const bool is_done = maker_.work_rows(bytes.data(), order.bytes, &peers, &own, &num_sums,
                                         error.data(), kReason) == 0;
   // One number more tells whether that went well, so that nobody waits for an answer.
@@ -178,39 +189,6 @@ bool Ranks::solve_rows(int solver, int number, int b, int x) {
   return solve_rows_together(order);
 }
 
-/// Each process tells those with rows of its variables which it wants.
-std::unique_ptr<Ranks::Way> Ranks::find_way(const std::vector<int>& variables,
-                                            const Runs& runs) const {
-  auto way = std::make_unique<Way>();
-  const auto owner = [&](int variable) {
-    return std::upper_bound(runs.first.begin(), runs.first.end(), variable) - runs.first.begin() -
-           1;
-  };
-  way->places.resize(variables.size());
-  std::iota(way->places.begin(), way->places.end(), 0);
-  std::stable_sort(way->places.begin(), way->places.end(), [&](int a, int b) {
-    return owner(variables[static_cast<std::size_t>(a)]) <
-           owner(variables[static_cast<std::size_t>(b)]);
-  });
-  way->in_counts.assign(static_cast<std::size_t>(count_), 0);
-  std::vector<int> wanted;
-  for (const int place : way->places) {
-    wanted.push_back(variables[static_cast<std::size_t>(place)]);
-    ++way->in_counts[static_cast<std::size_t>(owner(wanted.back()))];
-  }
-  way->in_first = starts_of(way->in_counts);
-  way->out_counts.resize(static_cast<std::size_t>(count_));
-  MPI_Alltoall(way->in_counts.data(), 1, MPI_INT, way->out_counts.data(), 1, MPI_INT, work_);
-  way->out_first = starts_of(way->out_counts);
-  way->given.resize(static_cast<std::size_t>(way->out_first.back()));
-  MPI_Alltoallv(wanted.data(), way->in_counts.data(), way->in_first.data(), MPI_INT,
-                way->given.data(), way->out_counts.data(), way->out_first.data(), MPI_INT, work_);
-  for (int& row : way->given) row -= runs.first[static_cast<std::size_t>(rank_)];
-  way->out.resize(way->given.size());
-  way->in.resize(wanted.size());
-  return way;
-}
-
 bool Ranks::solve_rows_together(const Order& order) {
   Part& part = *shared_->parts.at(order.of[kSolver]);
   double* b = nullptr;
@@ -222,19 +200,14 @@ bool Ranks::solve_rows_together(const Order& order) {
   const bool lacks_room = rank_ != 0 && (x == nullptr || b == nullptr);
   if (lacks_room) set_reason("there is too little memory for the rows of a vector");
   if (has_failed_somewhere(lacks_room)) return false;
-  if (!part.way) part.way = find_way(part.factor->variables(), shared_->runs.at(order.number));
+  if (!part.way) {
+    const Runs& runs = shared_->runs.at(order.number);
+    part.way = std::make_unique<Way>(part.factor->variables(), runs.first.data(), work_);
+  }
   Way& way = *part.way;
-  for (std::size_t k = 0; k < way.given.size(); ++k) way.out[k] = b[way.given[k]];
-  MPI_Alltoallv(way.out.data(), way.out_counts.data(), way.out_first.data(), MPI_DOUBLE,
-                way.in.data(), way.in_counts.data(), way.in_first.data(), MPI_DOUBLE, work_);
-  for (std::size_t k = 0; k < way.places.size(); ++k)
-    part.b[static_cast<std::size_t>(way.places[k])] = way.in[k];
+  way.bring(b, part.b.data());
   const bool has_failed = !part.factor->solve(part.b.data(), part.x.data());
-  for (std::size_t k = 0; k < way.places.size(); ++k)
-    way.in[k] = part.x[static_cast<std::size_t>(way.places[k])];
-  MPI_Alltoallv(way.in.data(), way.in_counts.data(), way.in_first.data(), MPI_DOUBLE,
-                way.out.data(), way.out_counts.data(), way.out_first.data(), MPI_DOUBLE, work_);
-  for (std::size_t k = 0; k < way.given.size(); ++k) x[way.given[k]] = way.out[k];
+  way.give_back(part.x.data(), x, false);
   count_messages(2 * (count_ - 1), 0);
   traffic_.bytes += 2.0 * sizeof(double) * static_cast<double>(way.in.size());  // of the first's
   return !has_failed_somewhere(has_failed);

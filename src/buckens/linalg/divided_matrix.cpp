@@ -10,6 +10,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/linalg/grid_library.h"
+#include "buckens/linalg/put_off_work.h"
 #include "buckens/linalg/ranks.h"
 
 namespace buckens::linalg {
@@ -80,6 +81,7 @@ DividedMatrix::DividedMatrix(std::span<const DividedMatrix* const> terms,
 
 DividedMatrix::~DividedMatrix() {
   const std::scoped_lock lock(turn_of_grid_solver());
+  PutOffWork::finish_at_end();
   grid_solver().forget(number_);
 }
 

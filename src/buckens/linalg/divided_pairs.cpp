@@ -9,6 +9,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/linalg/grid_library.h"
+#include "buckens/linalg/put_off_work.h"
 #include "buckens/linalg/ranks.h"
 
 namespace buckens::linalg {
@@ -29,11 +30,13 @@ DividedPairs::DividedPairs(Eigen::Index rows, int most) : rows_(rows) {
 
 DividedPairs::~DividedPairs() {
   const std::scoped_lock lock(turn_of_grid_solver());
+  PutOffWork::finish_at_end();
   grid_solver().forget(number_);
 }
 
 double DividedPairs::project(int pairs, VectorXf& r, VectorXf& along, TaskPool* /*pool*/) {
   const std::scoped_lock lock(turn_of_grid_solver());
+  PutOffWork::finish();
   return std::sqrt(grid_solver().project(number_, pairs, r.data(), along.data()));
 }
 
@@ -42,6 +45,7 @@ void DividedPairs::combine(int pairs, const VectorXf& weights, const VectorXf& s
   VectorXf sum(rows_);
   {
     const std::scoped_lock lock(turn_of_grid_solver());
+    PutOffWork::finish();
     grid_solver().combine(number_, pairs, weights.data(), sum.data());
   }
   if (!adds) x.setZero(rows_);
@@ -61,6 +65,7 @@ void DividedPairs::put(int pair, float scale, const VectorXf& load, const Vector
   const VectorXf c = scale * load;
   const VectorXf x = scale * answer;
   const std::scoped_lock lock(turn_of_grid_solver());
+  PutOffWork::finish();
   grid_solver().put_pair(number_, pair, c.data(), x.data());
 }
 
@@ -68,6 +73,7 @@ void DividedPairs::take(int pair, VectorXf& load, VectorXf& answer) const {
   load.resize(rows_);
   answer.resize(rows_);
   const std::scoped_lock lock(turn_of_grid_solver());
+  PutOffWork::finish();
   grid_solver().take_pair(number_, pair, load.data(), answer.data());
 }
 

@@ -21,6 +21,7 @@ class DividedPairs final : public KeptPairs {
   void put(int pair, float scale, const Eigen::VectorXf& load, const Eigen::VectorXf& answer,
            TaskPool* pool) override;
   void take(int pair, Eigen::VectorXf& load, Eigen::VectorXf& answer) const override;
+  int number() const override { return number_; }
 
  private:
   Eigen::Index rows_;

@@ -9,7 +9,7 @@ namespace buckens::linalg {
 
 class DividedVectors;
 
-/// A vector of the variables of a solid of which other processes have the rows (DividedVectors);
+/// A vector of the variables of a body of which other processes have the rows (DividedVectors);
 /// empty if default-made. Copies are the same vector, which lives as long as one of them.
 class DividedVector {
  public:

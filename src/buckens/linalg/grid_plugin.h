@@ -7,7 +7,7 @@
 extern "C" {
 
 /// Rises with every change of what stands here.
-enum { kBuckensGridVersion = 9 };
+enum { kBuckensGridVersion = 10 };
 
 /// Products that one order may ask for.
 enum { kBuckensMostProducts = 8 };
@@ -84,8 +84,12 @@ struct BuckensGridPeers {
   /// included.
   void (*exchange)(void* context, const int* out_counts, const double* out, const int* in_counts,
                    double* in);
+  /// y = A x of a divided symmetric matrix, given and returned by the rows of each; all call it
+  /// together. @return not zero if memory is too small
+  int (*multiply)(void* context, int matrix, const double* x, double* y);
+  /// The rows here of pairs that make_pairs() has made room for, each one behind the other.
+  void (*pairs)(void* context, int number, float** loads, float** answers);
   void* context;
-  int count;
 };
 
 /// What the program does in the processes other than the first.
@@ -163,7 +167,7 @@ struct BuckensGridPlugin {
                char* error, int error_size);
   /// Brings all columns back into arrays of their length; the processes keep theirs.
   void (*gather)(int matrix, int* starts, int* rows, double* values);
-  /// The others give the memory of a divided matrix, or of pairs, back.
+  /// The others give the memory of a divided matrix, of pairs, or of rows of vectors back.
   void (*forget)(int number);
   /// Of the first: room for `most` pairs of vectors, a load and an answer, of which the other
   /// processes have the rows. Only where there are others. @return its number, -1 after an error

@@ -28,6 +28,8 @@ class KeptPairs {
   virtual void put(int pair, float scale, const Eigen::VectorXf& load,
                    const Eigen::VectorXf& answer, TaskPool* pool) = 0;
   virtual void take(int pair, Eigen::VectorXf& load, Eigen::VectorXf& answer) const = 0;
+  /// By which other processes know them; −1: they are in this one.
+  virtual int number() const { return -1; }
 
  protected:
   KeptPairs() = default;

@@ -3,7 +3,7 @@
 
 #include <mutex>
 
-#include "buckens/linalg/divided_vectors.h"
+#include "buckens/linalg/row_program.h"
 
 namespace buckens::linalg {
 

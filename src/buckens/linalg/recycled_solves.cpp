@@ -49,7 +49,9 @@ void RecycledSolves::begin(const Vector& f, Request& request, TaskPool* pool) {
   });
 }
 
-double RecycledSolves::norm(const VectorXf& load, TaskPool* pool) {
+double RecycledSolves::norm(const Request& request, TaskPool* pool) {
+  if (request.of != nullptr) return norm_of_divided(request);
+  const VectorXf& load = request.remainder;
   std::fill(squares_.begin(), squares_.end(), 0.0);
   parts_.for_pieces(pool, [&](int part, Index first, Index size) {
     const auto piece = load.segment(first, size);
@@ -68,6 +70,7 @@ double RecycledSolves::project(Request& request, TaskPool* pool) {
 
 bool RecycledSolves::answer(Vector& f, double limit, Request& request, TaskPool* pool) {
   request.fate = Request::Fate::not_tried;
+  request.of = nullptr;
   if (!may_answer()) return false;
   begin(f, request, pool);
   if (project(request, pool) <= limit) {
@@ -115,20 +118,28 @@ void RecycledSolves::forget() {
 }
 
 void RecycledSolves::keep(Request& request, TaskPool* pool) {
-  double size = norm(request.remainder, pool);
+  double size = norm(request, pool);
   const double least = kLeastNew * size;
   if (!made_.empty()) {
-    for (const int pair : made_) {
-      pairs_->separate(pair, request.remainder, request.answer, pool);
-    }
-    size = norm(request.remainder, pool);
+    for (const int pair : made_) separate(pair, request, pool);
+    size = norm(request, pool);
   }
   if (!std::isfinite(size) || size <= std::max(least, kLeastSize)) return;
   if (static_cast<int>(made_.size()) == most_) return;
   const int pair = free_pair();
   scores_[index(pair)] = size;
-  pairs_->put(pair, static_cast<float>(1.0 / size), request.remainder, request.answer, pool);
+  put(pair, 1.0 / size, request, pool);
   made_.push_back(pair);
+}
+
+void RecycledSolves::separate(int pair, Request& request, TaskPool* pool) {
+  if (request.of != nullptr) return separate_divided(pair, request);
+  pairs_->separate(pair, request.remainder, request.answer, pool);
+}
+
+void RecycledSolves::put(int pair, double scale, const Request& request, TaskPool* pool) {
+  if (request.of != nullptr) return put_divided(pair, scale, request);
+  pairs_->put(pair, static_cast<float>(scale), request.remainder, request.answer, pool);
 }
 
 int RecycledSolves::free_pair() {

@@ -11,6 +11,7 @@
 #include "buckens/linalg/kept_pairs.h"
 #include "buckens/linalg/matrix_types.h"
 #include "buckens/linalg/row_parts.h"
+#include "buckens/linalg/row_program.h"
 
 namespace buckens::linalg {
 
@@ -27,7 +28,8 @@ namespace buckens::linalg {
 /// only, so that what was asked in vain leaves no trace. All results, and what is kept, are bitwise
 /// the same with any number of threads.
 ///
-/// Cost with m pairs: 3 m n numbers of four bytes read; 5 m n if r is solved for.
+/// Cost with m pairs: 3 m n numbers of four bytes read; 5 m n if r is solved for (6 m n of divided
+/// loads).
 class RecycledSolves {
  public:
   /// One load on its way to its answer.
@@ -36,6 +38,16 @@ class RecycledSolves {
     Eigen::VectorXf answer;     ///< √A of the diagonal times A⁻¹ r
     Eigen::VectorXf weights;    ///< αᵢ
     enum class Fate { not_tried, answered, solved } fate = Fate::not_tried;
+    /// In place of remainder and answer where other processes have the rows of the load; null:
+    /// here.
+    DividedVectors* of = nullptr;
+    DividedVector remainder_there, answer_there;
+  };
+  /// A load of which other processes have the rows.
+  struct DividedLoad {
+    DividedVectors* of;
+    DividedVector* load;
+    const DividedVector* scale;  ///< 1/√Aⱼⱼ
   };
 
   /// @param inverse_diagonal 1/Aⱼⱼ, n
@@ -45,8 +57,10 @@ class RecycledSolves {
   /// f ← A⁻¹ (f − r) with ‖r‖ ≤ limit and true, or f ← what is to be solved for and false: then
   /// complete() is to follow.
   bool answer(Vector& f, double limit, Request& request, TaskPool* pool = nullptr);
+  bool answer(const DividedLoad& f, double limit, Request& request);
   /// x ← A⁻¹ f. @param x the answer to what answer() left
   void complete(Request& request, Vector& x, TaskPool* pool = nullptr) const;
+  void complete(Request& request, const DividedLoad& x) const;
   /// Takes note of requests that were answered or completed, in this order, and keeps their pairs.
   void learn(std::span<Request* const> requests, TaskPool* pool = nullptr);
   /// As if nothing had ever been asked.
@@ -70,7 +84,17 @@ class RecycledSolves {
   void note_use(const Request& request);
   void note_outcome(bool is_answered);
   void keep(Request& request, TaskPool* pool);
-  double norm(const Eigen::VectorXf& load, TaskPool* pool);
+  void separate(int pair, Request& request, TaskPool* pool);
+  void put(int pair, double scale, const Request& request, TaskPool* pool);
+  // Of divided loads.
+  RowProgram::Pairs pairs_there(int first, int count) const {
+    return {pairs_->number(), first, count};
+  }
+  void project_divided(Request& request, RowProgram& program, const Vector& products) const;
+  double norm_of_divided(const Request& request) const;
+  void separate_divided(int pair, Request& request) const;
+  void put_divided(int pair, double scale, const Request& request) const;
+  double norm(const Request& request, TaskPool* pool);
   int free_pair();
   void visit_pair(const base::SaveVisit& visit, int pair);
 

@@ -22,6 +22,14 @@ class Peers final : public RowPeers {
                 double* in) override {
     peers_->exchange(peers_->context, out_counts.data(), out, in_counts.data(), in);
   }
+  void multiply(int matrix, const double* x, double* y) override {
+    if (peers_->multiply(peers_->context, matrix, x, y) != 0) throw std::bad_alloc();
+  }
+  Pairs pairs(int number) override {
+    Pairs out{};
+    peers_->pairs(peers_->context, number, &out.loads, &out.answers);
+    return out;
+  }
 
  private:
   const BuckensGridPeers* peers_;

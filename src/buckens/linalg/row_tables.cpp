@@ -1,50 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a solid belongs to the nodes of one process, as bytes.
-#include <algorithm>
+// What of a body belongs to the rows of one process, as bytes.
+#include "buckens/linalg/row_tables.h"
 
-#include "buckens/linalg/row_worker.h"
+#include "buckens/linalg/row_neighbours.h"
 
 namespace buckens::linalg {
 
 namespace {
 
-using RowMajor = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-
 /// Entries of the columns of some variables, with columns counted from the first of them.
-RowMajor columns_of(const RowMajor& N, int first, int end) {
+RowMajorMatrix columns_of(const RowMajorMatrix& N, int first, int end) {
   std::vector<Triplet> entries;
   for (int row = 0; row < N.outerSize(); ++row) {
-    for (RowMajor::InnerIterator it(N, row); it; ++it) {
+    for (RowMajorMatrix::InnerIterator it(N, row); it; ++it) {
       if (it.col() >= first && it.col() < end)
         entries.emplace_back(row, it.col() - first, it.value());
     }
   }
-  RowMajor out(N.rows(), end - first);
+  RowMajorMatrix out(N.rows(), end - first);
   out.setFromTriplets(entries.begin(), entries.end());
   return out;
-}
-
-template <class Sparse>
-void put_sparse(const Sparse& A, base::BytesTo& put) {
-  put(static_cast<int>(A.rows()));
-  put(static_cast<int>(A.cols()));
-  put(static_cast<int>(A.nonZeros()));
-  put.all(A.outerIndexPtr(), static_cast<std::size_t>(A.outerSize()) + 1);
-  put.all(A.innerIndexPtr(), static_cast<std::size_t>(A.nonZeros()));
-  put.all(A.valuePtr(), static_cast<std::size_t>(A.nonZeros()));
-}
-
-template <class Sparse>
-Sparse taken_sparse(base::BytesFrom& take) {
-  const auto rows = take.next<int>();
-  const auto columns = take.next<int>();
-  const auto entries = take.next<int>();
-  Sparse A(rows, columns);
-  A.resizeNonZeros(entries);
-  take.take_all(A.outerIndexPtr(), static_cast<std::size_t>(A.outerSize()) + 1);
-  take.take_all(A.innerIndexPtr(), static_cast<std::size_t>(entries));
-  take.take_all(A.valuePtr(), static_cast<std::size_t>(entries));
-  return A;
 }
 
 template <class T>
@@ -59,77 +34,59 @@ std::vector<int> taken_list(base::BytesFrom& take) {
   return list;
 }
 
-/// The neighbours of the nodes of a process, and who has them. Since Ms is symmetric, a process
-/// has beside its nodes those of another that have one of its own beside them.
-void find_neighbours(const SparseMatrix& Ms, std::span<const int> first_nodes, std::size_t place,
-                     RowTables& own) {
-  const std::size_t count = first_nodes.size() - 1;
-  const int end = own.first_node + own.nodes;
-  std::vector<std::vector<int>> sent(count);
-  for (int node = own.first_node; node < end; ++node) {
-    for (SparseMatrix::InnerIterator it(Ms, node); it; ++it) {
-      const auto other = static_cast<int>(it.row());
-      if (other >= own.first_node && other < end) continue;
-      own.beside.push_back(other);
-      const auto who =
-          static_cast<std::size_t>(std::upper_bound(first_nodes.begin(), first_nodes.end(), other) -
-                                   first_nodes.begin() - 1);
-      if (sent[who].empty() || sent[who].back() != node) sent[who].push_back(node);
-    }
+NodeTables described_nodes(int nodes, base::BytesFrom& take) {
+  NodeTables out;
+  out.Ms = taken_sparse<SparseMatrix>(take);
+  for (Eigen::Matrix4Xd* places : {&out.positions, &out.first_moments}) {
+    places->resize(4, nodes);
+    take.take_all(places->data(), 4 * static_cast<std::size_t>(nodes));
   }
-  std::sort(own.beside.begin(), own.beside.end());
-  own.beside.erase(std::unique(own.beside.begin(), own.beside.end()), own.beside.end());
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto begin = std::lower_bound(own.beside.begin(), own.beside.end(), first_nodes[k]);
-    const auto last = std::lower_bound(begin, own.beside.end(), first_nodes[k + 1]);
-    own.in_counts.push_back(k == place ? 0 : static_cast<int>(last - begin));
-    own.out_counts.push_back(static_cast<int>(sent[k].size()));
-    for (const int node : sent[k]) own.sent.push_back(node - own.first_node);
-  }
+  return out;
 }
 
 }  // namespace
 
-void describe_rows(const SparseMatrix& Ms, const Eigen::Matrix4Xd& positions,
-                   const Eigen::Matrix4Xd& first_moments, const RowMajor& N,
-                   std::span<const int> first_nodes, std::size_t place, base::BytesTo& put) {
-  RowTables own;
-  own.first_node = first_nodes[place];
-  own.nodes = first_nodes[place + 1] - own.first_node;
-  find_neighbours(Ms, first_nodes, place, own);
-  SparseMatrix columns = Ms.middleCols(own.first_node, own.nodes);
-  columns.makeCompressed();
-  for (Eigen::Index e = 0; e < columns.nonZeros(); ++e) {
-    int& row = columns.innerIndexPtr()[e];
-    const auto found = std::lower_bound(own.beside.begin(), own.beside.end(), row);
-    const bool is_beside = found != own.beside.end() && *found == row;
-    row =
-        is_beside ? own.nodes + static_cast<int>(found - own.beside.begin()) : row - own.first_node;
-  }
-  const auto nodes = static_cast<std::size_t>(own.nodes);
-  put(own.first_node);
-  put(own.nodes);
-  put_sparse(columns, put);
-  put.all(positions.col(own.first_node).data(), 4 * nodes);
-  put.all(first_moments.col(own.first_node).data(), 4 * nodes);
-  put_sparse(columns_of(N, 3 * own.first_node, 3 * (own.first_node + own.nodes)), put);
+void put_runs(const RowTables& own, const RowMajorMatrix& N, base::BytesTo& put) {
+  put(own.width);
+  put(own.first);
+  put(own.count);
+  put_sparse(columns_of(N, own.width * own.first, own.width * (own.first + own.count)), put);
   for (const auto* list : {&own.beside, &own.in_counts, &own.sent, &own.out_counts}) {
     put_list(*list, put);
   }
 }
 
+void describe_rows(const WholeNodes& of, const RowMajorMatrix& N, std::span<const int> first_units,
+                   std::size_t place, base::BytesTo& put) {
+  RowTables own;
+  own.width = 3;
+  RowNeighbours neighbours(first_units, place, own);
+  for (int node = own.first; node < own.first + own.count; ++node) {
+    for (SparseMatrix::InnerIterator it(*of.Ms, node); it; ++it) {
+      neighbours.add(node, static_cast<int>(it.row()));
+    }
+  }
+  neighbours.finish();
+  put_runs(own, N, put);
+  put_sparse(columns_at_places(*of.Ms, own.first, own.count, neighbours), put);
+  const auto nodes = static_cast<std::size_t>(own.count);
+  put.all(of.positions->col(own.first).data(), 4 * nodes);
+  put.all(of.first_moments->col(own.first).data(), 4 * nodes);
+}
+
 RowTables described_rows(base::BytesFrom& take) {
   RowTables out;
-  take(out.first_node);
-  take(out.nodes);
-  out.Ms = taken_sparse<SparseMatrix>(take);
-  for (Eigen::Matrix4Xd* places : {&out.positions, &out.first_moments}) {
-    places->resize(4, out.nodes);
-    take.take_all(places->data(), 4 * static_cast<std::size_t>(out.nodes));
-  }
-  out.N = taken_sparse<RowMajor>(take);
+  take(out.width);
+  take(out.first);
+  take(out.count);
+  out.N = taken_sparse<RowMajorMatrix>(take);
   for (auto* list : {&out.beside, &out.in_counts, &out.sent, &out.out_counts}) {
     *list = taken_list(take);
+  }
+  if (out.width == 3) {
+    out.inertia = described_nodes(out.count, take);
+  } else {
+    out.inertia = described_variables(take);
   }
   return out;
 }

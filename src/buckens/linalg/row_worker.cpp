@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace buckens::linalg {
@@ -21,10 +20,7 @@ std::size_t place(int number) { return static_cast<std::size_t>(number); }
 void RowWorker::add(int space, RowTables tables) {
   auto made = std::make_unique<Space>();
   made->tables = std::move(tables);
-  const RowTables& own = made->tables;
-  // No node is the last one: vectors have a number more than their nodes have.
-  made->mass = {own.Ms.valuePtr(), own.Ms.innerIndexPtr(), own.Ms.outerIndexPtr(),
-                std::numeric_limits<int>::max()};
+  made->inertia = row_inertia(made->tables);
   spaces_[space] = std::move(made);
 }
 
@@ -59,13 +55,22 @@ double* RowWorker::make_room(const Space& space, int vector) {
 std::span<const double> RowWorker::work(std::span<const std::byte> program, RowPeers& peers) {
   sums_.clear();
   Take take(program);
-  const Space& space = *spaces_.at(take.next<int>());
-  while (!take.is_at_end()) do_task(take.next<RowTask>(), space, take, peers);
+  const Space* space = nullptr;
+  while (!take.is_at_end()) {
+    const auto task = take.next<RowTask>();
+    if (task == RowTask::space) {
+      space = spaces_.at(take.next<int>()).get();
+    } else {
+      do_task(task, *space, take, peers);
+    }
+  }
   return sums_;
 }
 
 void RowWorker::do_task(RowTask task, const Space& space, Take& take, RowPeers& peers) {
   switch (task) {
+    case RowTask::space:
+      break;
     case RowTask::drop: {
       const auto own = vectors_.find(take.next<int>());
       if (own == vectors_.end()) break;
@@ -79,6 +84,9 @@ void RowWorker::do_task(RowTask task, const Space& space, Take& take, RowPeers& 
       break;
     case RowTask::multiply_mass:
       multiply_mass(space, take, peers);
+      break;
+    case RowTask::multiply:
+      multiply(space, take, peers);
       break;
     case RowTask::couple:
       couple(space, take, peers);
@@ -97,6 +105,18 @@ void RowWorker::do_task(RowTask task, const Space& space, Take& take, RowPeers& 
       break;
     case RowTask::total:
       add_total(space, take);
+      break;
+    case RowTask::square:
+      add_square(space, take);
+      break;
+    case RowTask::scale:
+      scale(space, take);
+      break;
+    case RowTask::pair_products:
+    case RowTask::subtract_loads:
+    case RowTask::combine_answers:
+    case RowTask::put_pair:
+      do_pairs(task, space, take, peers);
       break;
   }
 }
@@ -121,21 +141,22 @@ void RowWorker::combine(const Space& space, Take& take) {
 void RowWorker::fill_beside(const Space& space, std::initializer_list<double*> vectors,
                             RowPeers& peers) {
   const RowTables& own = space.tables;
-  const int per_node = 3 * static_cast<int>(vectors.size());
+  const int per_unit = own.width * static_cast<int>(vectors.size());
   std::vector<int> out_counts = own.out_counts, in_counts = own.in_counts;
-  for (int& count : out_counts) count *= per_node;
-  for (int& count : in_counts) count *= per_node;
+  for (int& count : out_counts) count *= per_unit;
+  for (int& count : in_counts) count *= per_unit;
   out_.clear();
-  for (const int node : own.sent) {
-    for (const double* x : vectors) out_.insert(out_.end(), x + 3 * node, x + 3 * node + 3);
+  for (const int unit : own.sent) {
+    const int first = own.width * unit;
+    for (const double* x : vectors) out_.insert(out_.end(), x + first, x + first + own.width);
   }
-  in_.resize(place(per_node) * own.beside.size());
+  in_.resize(place(per_unit) * own.beside.size());
   peers.exchange(out_counts, out_.data(), in_counts, in_.data());
   const double* from = in_.data();
   for (std::size_t k = 0; k < own.beside.size(); ++k) {
     for (double* x : vectors) {
-      std::copy_n(from, 3, x + space.rows() + 3 * k);
-      from += 3;
+      std::copy_n(from, own.width, x + space.rows() + space.width() * k);
+      from += own.width;
     }
   }
 }
@@ -144,7 +165,13 @@ void RowWorker::multiply_mass(const Space& space, Take& take, RowPeers& peers) {
   double* y = make_room(space, take.next<int>());
   double* x = at(take.next<int>());
   fill_beside(space, {x}, peers);
-  kernels_->multiply(space.mass, 0, space.tables.nodes, x, y);
+  space.inertia->multiply_mass(x, y);
+}
+
+void RowWorker::multiply(const Space& space, Take& take, RowPeers& peers) {
+  double* y = make_room(space, take.next<int>());
+  const double* x = at(take.next<int>());
+  peers.multiply(take.next<int>(), x, y);
 }
 
 void RowWorker::couple(const Space& space, Take& take, RowPeers& peers) {
@@ -160,22 +187,20 @@ void RowWorker::couple(const Space& space, Take& take, RowPeers& peers) {
     std::fill_n(to, space.rows(), 0.0);
   }
   NodeSums sums;
-  kernels_->couple(space.mass, 0, space.tables.nodes, vectors.data(), weights.data(), to, sums);
+  space.inertia->couple({vectors[0], vectors[1], vectors[2]}, weights.data(), to, sums);
   sums_.insert(sums_.end(), sums.value, sums.value + kCoupleSums);
 }
 
 void RowWorker::add_moments(const Space& space, Take& take) {
-  NodeSums sums;
-  kernels_->moments(space.tables.first_moments.data(), 0, space.tables.nodes, at(take.next<int>()),
-                    sums);
-  sums_.insert(sums_.end(), sums.value, sums.value + kMomentSums);
+  sums_.resize(sums_.size() + kMomentSums, 0.0);
+  space.inertia->add_moments(at(take.next<int>()), sums_.data() + sums_.size() - kMomentSums);
 }
 
 void RowWorker::subtract(const Space& space, Take& take) {
   double* y = at(take.next<int>());
   std::array<double, kMotionNumbers> motion{};
   take.take_all(motion.data(), motion.size());
-  kernels_->subtract(space.tables.positions.data(), 0, space.tables.nodes, motion.data(), y);
+  space.inertia->subtract(motion.data(), y);
 }
 
 void RowWorker::multiply_rows(const Space& space, Take& take) {
@@ -194,12 +219,13 @@ void RowWorker::compare(const Space& space, Take& take) {
   const auto x = next();
   const auto before = next();
   const auto weights = next();
+  const auto of_largest = next();
   double change = 0, size = 0, most = 0;
   for (Eigen::Index k = 0; k < n; ++k) {
     const double moved = x[k] - before[k];
     change += weights[k] * moved * moved;
     size += weights[k] * x[k] * x[k];
-    most = std::max(most, std::abs(weights[k] * moved));
+    most = std::max(most, std::abs(of_largest[k] * moved));
   }
   sums_.insert(sums_.end(), {change, size, most});
 }
@@ -212,6 +238,23 @@ void RowWorker::add_total(const Space& space, Take& take) {
     for (std::size_t row = 0; row < space.rows(); ++row) total += x[row];
   }
   sums_.push_back(total);
+}
+
+void RowWorker::add_square(const Space& space, Take& take) {
+  const Eigen::Map<const Vector> x(at(take.next<int>()), static_cast<Eigen::Index>(space.rows()));
+  sums_.push_back(x.squaredNorm());
+}
+
+void RowWorker::scale(const Space& space, Take& take) {
+  const auto n = static_cast<Eigen::Index>(space.rows());
+  Eigen::Map<Vector> y(make_room(space, take.next<int>()), n);
+  const Eigen::Map<const Vector> x(at(take.next<int>()), n);
+  const Eigen::Map<const Vector> weights(at(take.next<int>()), n);
+  if (take.next<bool>()) {
+    y = x.cwiseQuotient(weights);
+  } else {
+    y = x.cwiseProduct(weights);
+  }
 }
 
 }  // namespace buckens::linalg

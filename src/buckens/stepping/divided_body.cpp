@@ -13,30 +13,79 @@ using linalg::DividedVector;
 using linalg::RowProgram;
 using linalg::Vector;
 
+namespace {
+
+std::shared_ptr<linalg::DividedVectors> vectors_of(const BodyStepOperator& op,
+                                                   const body::FlexiblePart& part) {
+  if (const body::NodalMotion* nodal = op.nodal()) {
+    return std::make_shared<linalg::DividedVectors>(
+        linalg::WholeNodes{&nodal->scalar_mass(), &nodal->positions(), &nodal->mass_moments()},
+        part.rows);
+  }
+  const fem::ShapeIntegrals& shape = part.fe.shape;
+  return std::make_shared<linalg::DividedVectors>(
+      linalg::WholeVariables{&shape.W, shape.nodal.Ms.get(), &shape.nodal.dofs,
+                             &part.sieve.stored_Phi(), &part.sieve.stored_P(),
+                             &part.invariants.stored_patterns()},
+      part.rows);
+}
+
+}  // namespace
+
 std::shared_ptr<const DividedBody> DividedBody::make(const BodyStepOperator& op,
                                                      const body::FlexiblePart& part,
                                                      const BodyResponses& responses) {
   const linalg::Factor* factor = op.shared_factor();
   const InertialLoad& inertial = op.inertial();
-  const bool suits = factor != nullptr && factor->solves_divided() && op.nodal() != nullptr &&
-                     !op.is_quasi_static() && inertial.is_by_node() &&
-                     (!inertial.is_damped() || inertial.is_proportional()) &&
+  const bool suits = factor != nullptr && factor->solves_divided() && !op.is_quasi_static() &&
+                     (op.nodal() != nullptr ? inertial.is_by_node() : part.fe.M.is_divided()) &&
+                     (!inertial.is_damped() || inertial.is_proportional() || part.C.is_divided()) &&
                      part.geometric == nullptr;
   if (!suits) return nullptr;
   return std::shared_ptr<const DividedBody>(new DividedBody(op, part, responses));
 }
 
 DividedBody::DividedBody(const BodyStepOperator& op, const body::FlexiblePart& part,
-                         const BodyResponses& responses) {
-  vectors_ = std::make_shared<linalg::DividedVectors>(
-      linalg::DividedVectors::Tables{&op.nodal()->scalar_mass(), &op.nodal()->positions(),
-                                     &op.nodal()->mass_moments(), &part.rows});
+                         const BodyResponses& responses)
+    : nodal_(op.nodal()), vectors_(vectors_of(op, part)) {
+  if (nodal_ == nullptr) M_ = part.fe.M;
+  if (op.inertial().is_damped() && !op.inertial().is_proportional()) C_ = part.C;
   const auto put_columns = [&](const linalg::Matrix& columns, std::vector<DividedVector>& out) {
     for (Eigen::Index k = 0; k < columns.cols(); ++k) out.push_back(vectors_->put(columns.col(k)));
   };
   put_columns(responses.G, G_);
   put_columns(responses.D_less_G, D_less_G_);
-  inverse_diagonal_ = vectors_->put(op.K_hat_diagonal().cwiseInverse());
+  const Vector inverse = op.K_hat_diagonal().cwiseInverse();
+  inverse_diagonal_ = vectors_->put(inverse);
+  scale_ = vectors_->put(inverse.cwiseSqrt().cast<float>().cast<double>());
+}
+
+DividedVector DividedBody::multiply_mass(RowProgram& program, const DividedVector& x) const {
+  return nodal_ != nullptr ? program.multiply_mass(x) : program.multiply(M_.divide(), x);
+}
+
+DividedVector DividedBody::multiply_damping(RowProgram& program, const DividedVector& x) const {
+  return program.multiply(C_.divide(), x);
+}
+
+DividedBody::Vector6 DividedBody::rigid(const Vector& sums) const {
+  return nodal_ != nullptr ? nodal_->rigid(node_sums(sums)) : Vector6(sums.head<6>());
+}
+
+DividedBody::Vector6 DividedBody::patterns(const Vector& sums) const {
+  return nodal_ != nullptr ? body::NodalMotion::patterns(node_sums(sums))
+                           : Vector6(sums.segment<6>(linalg::kPatternSums));
+}
+
+std::array<double, linalg::kMotionNumbers> DividedBody::motion(
+    const Eigen::Ref<const Eigen::VectorXd>& rigid) const {
+  std::array<double, linalg::kMotionNumbers> out{};
+  if (nodal_ != nullptr) {
+    Eigen::Map<Eigen::Matrix4d>(out.data()) = nodal_->motion(rigid);
+  } else {
+    std::copy(rigid.begin(), rigid.end(), out.begin());
+  }
+  return out;
 }
 
 void DividedBody::row_values(const BodyStepOperator& op, const model::BodyState& state, Vector& y,
@@ -57,7 +106,7 @@ void DividedBody::row_values(const BodyStepOperator& op, const model::BodyState&
     const Eigen::Index first = static_cast<Eigen::Index>(k) * vectors_->num_rows();
     out[k]->head(interface) = of_rows.segment(first, interface);
     if (!uses_patterns) continue;
-    out[k]->tail<6>() = body::NodalMotion::patterns(node_sums(program.sum(moments[k])));
+    out[k]->tail<6>() = patterns(program.sum(moments[k]));
   }
 }
 

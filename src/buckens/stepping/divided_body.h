@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
-#include "buckens/linalg/divided_vectors.h"
 #include "buckens/linalg/nodal_vector.h"
+#include "buckens/linalg/row_program.h"
 #include "buckens/model/state.h"
 #include "buckens/stepping/body_responses.h"
 
@@ -13,13 +14,13 @@ namespace buckens::stepping {
 
 class BodyStepOperator;
 
-/// A large solid whose n-sized vectors other processes have, which do with their rows what a step
-/// does with them (linalg::DividedVectors): products with M, sieve and moments, coupling, and the
-/// state at the end. The first process keeps sums.
+/// A large body whose n-sized vectors other processes have, which do with their rows what a step
+/// does with them (linalg::DividedVectors): products with M and C, sieve and moments, coupling, and
+/// the state at the end. The first process keeps sums. Of solids without constraints they work node
+/// by node, of other bodies variable by variable.
 class DividedBody {
  public:
-  /// Null unless several processes share the factor of the body and its mass matrix acts node by
-  /// node: damped in proportion or not at all, without stiffening by given stresses.
+  /// Null unless several processes share the factor of the body, which no given stresses stiffen.
   static std::shared_ptr<const DividedBody> make(const BodyStepOperator& op,
                                                  const body::FlexiblePart& part,
                                                  const BodyResponses& responses);
@@ -34,6 +35,21 @@ class DividedBody {
   const std::vector<linalg::DividedVector>& D_less_G() const { return D_less_G_; }
   /// 1/K̂ᵢᵢ.
   const linalg::DividedVector& inverse_diagonal() const { return inverse_diagonal_; }
+  /// Its root as kept pairs are scaled by it, see RecycledSolves.
+  const linalg::DividedVector& scale() const { return scale_; }
+
+  using Vector6 = Eigen::Matrix<double, 6, 1>;
+  linalg::DividedVector multiply_mass(linalg::RowProgram& program,
+                                      const linalg::DividedVector& x) const;
+  linalg::DividedVector multiply_damping(linalg::RowProgram& program,
+                                         const linalg::DividedVector& x) const;
+  /// Amplitudes of rigid motions, as many as there are, from the sums of RowProgram::moments().
+  Vector6 rigid(const linalg::Vector& sums) const;
+  /// Values along the patterns, from the same sums.
+  Vector6 patterns(const linalg::Vector& sums) const;
+  /// Φ × amplitudes for RowProgram::subtract().
+  std::array<double, linalg::kMotionNumbers> motion(
+      const Eigen::Ref<const Eigen::VectorXd>& rigid) const;
 
   /// factor × G × load, brought here.
   linalg::Vector answer(const Eigen::VectorXd& load, double factor) const;
@@ -45,9 +61,12 @@ class DividedBody {
   DividedBody(const BodyStepOperator& op, const body::FlexiblePart& part,
               const BodyResponses& responses);
 
+  const body::NodalMotion* nodal_;  // null: variable by variable
+  // Copies: where M or C is brought here, their rows stay with the others, too.
+  linalg::SymmetricMatrix M_, C_;
   std::shared_ptr<linalg::DividedVectors> vectors_;
   std::vector<linalg::DividedVector> G_, D_less_G_;
-  linalg::DividedVector inverse_diagonal_;
+  linalg::DividedVector inverse_diagonal_, scale_;
 };
 
 /// Moments of a whole body from the sums that RowProgram::moments() brings.

@@ -116,22 +116,12 @@ void FactorGroup::answer_changes(const model::State& before, bool recycles, Task
 
 bool FactorGroup::answer(FlexibleStep& body, double limit, TaskPool* pool) {
   if (!body.large.is_divided()) return kept_.answer(body.large.side(), limit, body.request, pool);
-  if (!kept_.may_answer()) {
-    body.request.fate = linalg::RecycledSolves::Request::Fate::not_tried;
-    return false;
-  }
-  body.large.bring_side(brought_);
-  const bool is_answered = kept_.answer(brought_, limit, body.request, pool);
-  body.large.give_side(brought_);
-  return is_answered;
+  return kept_.answer(body.large.divided_side(), limit, body.request);
 }
 
 void FactorGroup::complete(FlexibleStep& body, TaskPool* pool) {
   if (!body.large.is_divided()) return kept_.complete(body.request, body.large.side(), pool);
-  if (body.request.fate != linalg::RecycledSolves::Request::Fate::solved) return;
-  body.large.bring_side(brought_);
-  kept_.complete(body.request, brought_, pool);
-  body.large.give_side(brought_);
+  kept_.complete(body.request, body.large.divided_side());
 }
 
 void FactorGroup::learn(TaskPool* pool) {

@@ -54,7 +54,6 @@ class FactorGroup {
   std::vector<double*> sides_;
   std::vector<linalg::RecycledSolves::Request*> requests_;  // of this step
   linalg::RecycledSolves kept_;
-  linalg::Vector brought_;  // of a body whose vectors other processes have
 };
 
 }  // namespace buckens::stepping

@@ -35,7 +35,14 @@ LaggedCoupling::LaggedCoupling(const body::Body& body, const BodyStepOperator& o
       divided_(op.divided()) {
   const linalg::Matrix patterns = body.flexible->invariants.centrifugal_patterns();
   const linalg::Vector lengths = body::coordinate_lengths(body);
-  if ((lengths.array() != 1.0).any()) moved_per_load_ = lengths.cwiseProduct(inverse_diagonal_);
+  if ((lengths.array() != 1.0).any()) {
+    linalg::Vector moved = lengths.cwiseProduct(inverse_diagonal_);
+    if (divided_ != nullptr) {
+      moved_there_ = divided_->vectors().put(moved);
+    } else {
+      moved_per_load_ = std::move(moved);
+    }
+  }
   undeformed_ = patterns.transpose() * (inverse_diagonal_.asDiagonal() * patterns);
 }
 

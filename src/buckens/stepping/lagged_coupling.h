@@ -92,9 +92,10 @@ class LaggedCoupling {
   Scheme scheme_;
   const linalg::CommonTable* common_;  // of a solid, or null
   linalg::RowParts rows_;
-  linalg::Vector inverse_diagonal_;  // of K̂; empty if there are no loads
-  linalg::Vector moved_per_load_;    // the same as displacements; empty: are some
-  const DividedBody* divided_;  // of a solid, whose variables are displacements; null: all is here
+  linalg::Vector inverse_diagonal_;         // of K̂; empty if there are no loads
+  linalg::Vector moved_per_load_;           // the same as displacements; empty: are some
+  const DividedBody* divided_;              // null: all is here
+  linalg::DividedVector moved_there_;       // in place of moved_per_load_
   Eigen::Matrix<double, 6, 6> undeformed_;  // cᵀ D⁻¹ c of the patterns c
   model::Coupling used_, evaluated_;
   bool load_changed_ = true;

@@ -55,7 +55,9 @@ LaggedCoupling::Sizes LaggedCoupling::evaluate_divided(const body::CouplingTerms
   if (has_load && !is_pushed) load = program.combine({});
   const DividedVector used = compares && has_load ? divided_->of(used_.load) : DividedVector();
   if (!used.empty()) {
-    compared = program.compare(load, used, divided_->inverse_diagonal());
+    const DividedVector& per_load = divided_->inverse_diagonal();
+    compared =
+        program.compare(load, used, per_load, moved_there_.empty() ? per_load : moved_there_);
   }
   program.run();
   if (has_load) out.load = divided_->nodal(load);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "buckens/base/task_pool.h"
+#include "buckens/linalg/recycled_solves.h"
 #include "buckens/linalg/row_parts.h"
 #include "buckens/stepping/body_step_operator.h"
 
@@ -41,10 +42,10 @@ class LargeStep {
   linalg::Vector& side() { return is_first_ ? free_ : change_; }
   /// Whether other processes have the rows of all vectors (DividedBody).
   bool is_divided() const { return op_->divided() != nullptr; }
-  /// Then: solves for the right-hand side, brings it here, or gives another one.
+  /// Then: solves for the right-hand side.
   void solve_divided(const linalg::Factor& factor);
-  void bring_side(linalg::Vector& out) const;
-  void give_side(const linalg::Vector& side);
+  /// Then: the right-hand side, for RecycledSolves.
+  linalg::RecycledSolves::DividedLoad divided_side();
   /// Sieves the right-hand side, for a solver that iterates: what K̂⁻¹ makes of rigid motion would
   /// be sieved in any case, but counts in the error that a solve may have.
   void sieve_side();

@@ -52,7 +52,14 @@ void LargeStep::form_divided_right_side(const model::BodyState& before, const No
   past.add(with_mass_, terms);
   RowProgram program(body.vectors());
   const DividedVector moving = program.combine(terms);
-  free_there_ = program.multiply_mass(moving);
+  free_there_ = body.multiply_mass(program, moving);
+  const InertialLoad& inertial = op_->inertial();
+  if (inertial.is_damped() && !inertial.is_proportional()) {
+    WeightedVectors damped;
+    past.add(with_damping_, damped);
+    const DividedVector of_damping = body.multiply_damping(program, program.combine(damped));
+    program.add(free_there_, WeightedVectors{{1.0, &of_damping}});
+  }
   const double c_theta = op_->scheme().force * op_->scheme().weight;
   if (!of_load.empty()) program.add(free_there_, WeightedVectors{{c_theta, &of_load}});
   program.run();
@@ -73,12 +80,9 @@ void LargeStep::solve_divided(const linalg::Factor& factor) {
   side = factor.solve_divided(op_->divided()->vectors(), side);
 }
 
-void LargeStep::bring_side(linalg::Vector& out) const {
-  op_->divided()->vectors().take(is_first_ ? free_there_ : change_there_, out);
-}
-
-void LargeStep::give_side(const linalg::Vector& side) {
-  (is_first_ ? free_there_ : change_there_) = op_->divided()->vectors().put(side);
+linalg::RecycledSolves::DividedLoad LargeStep::divided_side() {
+  const DividedBody& body = *op_->divided();
+  return {&body.vectors(), is_first_ ? &free_there_ : &change_there_, &body.scale()};
 }
 
 LargeStep::SolutionSums LargeStep::take_divided_solution(const model::BodyState& before,
@@ -110,10 +114,9 @@ LargeStep::SolutionSums LargeStep::take_divided_solution(const model::BodyState&
   program.run();
 
   SolutionSums out;
-  const linalg::NodeSums of_rigid = node_sums(program.sum(rigid));
-  out.rigid = op_->nodal()->rigid(of_rigid);
-  out.patterns =
-      body::NodalMotion::patterns(has_both ? of_rigid : node_sums(program.sum(patterns)));
+  const linalg::Vector of_rigid = program.sum(rigid);
+  out.rigid = body.rigid(of_rigid).head(op_->sieve().rank());
+  if (uses_patterns) out.patterns = body.patterns(has_both ? of_rigid : program.sum(patterns));
   out.interface = program.sum(products).head(op_->num_interface_rows());
   return out;
 }
@@ -127,7 +130,7 @@ void LargeStep::complete_divided(const model::BodyState& before, const VectorXd&
   RowProgram program(body.vectors());
   const DividedVector increment =
       program.combine(WeightedVectors{{1.0, &free_there_}, {-1.0, &past.d()}});
-  program.subtract(increment, op_->nodal()->motion(rigid_).data());
+  program.subtract(increment, body.motion(rigid_).data());
   WeightedVectors answers;
   add_columns(body.G(), load, scheme.force, answers);
   const VectorXd closing = correction.head(op_->num_interface_rows());

@@ -3,78 +3,38 @@
 #include "buckens/linalg/row_worker.h"
 
 #include <array>
-#include <barrier>
-#include <thread>
 
 #include <gtest/gtest.h>
 
 #include "buckens/linalg/node_matrix.h"
 #include "buckens/linalg/test/definite_matrices.h"
+#include "buckens/linalg/test/row_threads.h"
 
 namespace buckens::linalg {
 namespace {
 
-using RowMajor = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-
 // Sums of some thousand products of numbers of about one, in another order.
 constexpr double kOfOtherOrder = 1e-12;
 
-/// What threads give each other.
-struct Mailbox {
-  explicit Mailbox(std::size_t threads)
-      : all_are_here(static_cast<std::ptrdiff_t>(threads)), letters(threads) {}
-  std::barrier<> all_are_here;
-  std::vector<std::vector<std::vector<double>>> letters;  // from, to
-};
+SparseMatrix compressed(SparseMatrix A) {
+  A.makeCompressed();
+  return A;
+}
 
-class Thread final : public RowPeers {
- public:
-  Thread(Mailbox& mail, std::size_t place) : mail_(&mail), place_(place) {}
-  void exchange(std::span<const int> out_counts, const double* out, std::span<const int> in_counts,
-                double* in) override {
-    auto& mine = mail_->letters[place_];
-    mine.clear();
-    for (const int count : out_counts) {
-      mine.emplace_back(out, out + count);
-      out += count;
-    }
-    mail_->all_are_here.arrive_and_wait();
-    for (std::size_t k = 0; k < in_counts.size(); ++k) {
-      const std::vector<double>& letter = mail_->letters[k][place_];
-      EXPECT_EQ(static_cast<int>(letter.size()), in_counts[k]);
-      in = std::copy(letter.begin(), letter.end(), in);
-    }
-    mail_->all_are_here.arrive_and_wait();
+RowMajorMatrix some_rows(int size) {
+  std::vector<Triplet> entries;
+  for (int row = 0; row < 5; ++row) {
+    for (int k = 0; k < 4; ++k) entries.emplace_back(row, (row * 97 + 61 * k) % size, 0.5 + k);
   }
-
- private:
-  Mailbox* mail_;
-  std::size_t place_;
-};
+  RowMajorMatrix N(5, size);
+  N.setFromTriplets(entries.begin(), entries.end());
+  return N;
+}
 
 /// A body of which three workers have the rows, in runs of different lengths.
 class RowsOfABody : public testing::Test {
  protected:
-  static constexpr std::size_t kWorkers = 3;
-  static constexpr int kSpace = 7;
-
   RowsOfABody() {
-    Ms.makeCompressed();
-    std::vector<Triplet> entries;
-    for (int row = 0; row < 5; ++row) {
-      for (int k = 0; k < 4; ++k) entries.emplace_back(row, (row * 97 + 61 * k) % size(), 0.5 + k);
-    }
-    N.resize(5, size());
-    N.setFromTriplets(entries.begin(), entries.end());
-    const int n = nodes();
-    first_nodes = {0, n / 5, n / 2, n};
-    for (std::size_t k = 0; k < kWorkers; ++k) {
-      base::BytesTo put;
-      describe_rows(Ms, positions, first_moments, N, first_nodes, k, put);
-      base::BytesFrom take(put.bytes());
-      workers[k].add(kSpace, described_rows(take));
-      EXPECT_TRUE(take.is_at_end());
-    }
     put(0, d);
     put(1, rate);
     put(2, acceleration);
@@ -86,50 +46,25 @@ class RowsOfABody : public testing::Test {
     std::srand(static_cast<unsigned>(seed));
     return Vector::Random(size());
   }
-  void put(int vector, const Vector& x) {
-    for (std::size_t k = 0; k < kWorkers; ++k) {
-      const std::span<double> rows = workers[k].rows(kSpace, vector);
-      std::copy_n(x.data() + 3 * first_nodes[k], rows.size(), rows.begin());
-    }
-  }
-  Vector whole(int vector) {
-    Vector out(size());
-    for (std::size_t k = 0; k < kWorkers; ++k) {
-      const std::span<const double> rows = workers[k].rows(kSpace, vector);
-      std::copy(rows.begin(), rows.end(), out.data() + 3 * first_nodes[k]);
-    }
-    return out;
-  }
-  /// The sums of each worker.
-  std::vector<Vector> run(const base::BytesTo& program) {
-    std::vector<Vector> sums(kWorkers);
-    Mailbox mail(kWorkers);
-    std::vector<std::thread> threads;
-    for (std::size_t k = 0; k < kWorkers; ++k) {
-      threads.emplace_back([&, k] {
-        Thread peers(mail, k);
-        const std::span<const double> own = workers[k].work(program.bytes(), peers);
-        sums[k] = Eigen::Map<const Vector>(own.data(), static_cast<Eigen::Index>(own.size()));
-      });
-    }
-    for (std::thread& thread : threads) thread.join();
-    return sums;
-  }
-  static Vector total(const std::vector<Vector>& sums) { return sums[0] + sums[1] + sums[2]; }
+  void put(int vector, const Vector& x) { threads.put(vector, x); }
+  Vector whole(int vector) { return threads.whole(vector); }
+  std::vector<Vector> run(const base::BytesTo& program) { return threads.run(program); }
+  static Vector total(const std::vector<Vector>& sums) { return RowThreads::total(sums); }
   template <class... Numbers>
   static base::BytesTo program(const Numbers&... numbers) {
-    base::BytesTo put;
-    put(kSpace);
-    (put(numbers), ...);
-    return put;
+    return RowThreads::program(numbers...);
   }
 
-  SparseMatrix Ms = matrices::grid(9, 0.3);
+  SparseMatrix Ms = compressed(matrices::grid(9, 0.3));
   Eigen::Matrix4Xd positions = Eigen::Matrix4Xd::Random(4, nodes());
   Eigen::Matrix4Xd first_moments = Eigen::Matrix4Xd::Random(4, nodes());
-  RowMajor N;
-  std::vector<int> first_nodes;
-  std::array<RowWorker, kWorkers> workers;
+  RowMajorMatrix N = some_rows(size());
+  std::vector<int> first_nodes = {0, nodes() / 5, nodes() / 2, nodes()};
+  RowThreads threads{
+      {0, 3 * first_nodes[1], 3 * first_nodes[2], size()},
+      [this](std::size_t k, base::BytesTo& put) {
+        describe_rows(WholeNodes{&Ms, &positions, &first_moments}, N, first_nodes, k, put);
+      }};
   Vector d = random(1), rate = random(2), acceleration = random(3);
 };
 
@@ -149,6 +84,11 @@ TEST_F(RowsOfABody, MultipliesByMassAcrossBorders) {
   Vector expected(size());
   multiply_by_node(Ms, d.data(), expected.data());
   EXPECT_LE((whole(3) - expected).norm(), kOfOtherOrder * expected.norm());
+}
+
+TEST_F(RowsOfABody, MultipliesByMatricesOfTheOthers) {
+  run(program(RowTask::multiply, 3, 1, 4));
+  EXPECT_EQ(whole(3), 4.0 * rate);
 }
 
 TEST_F(RowsOfABody, CouplesAcrossBorders) {
@@ -207,23 +147,25 @@ TEST_F(RowsOfABody, MultipliesByInterfaceRows) {
 TEST_F(RowsOfABody, ComparesAndTotals) {
   put(4, random(4).cwiseAbs());
   const Vector weights = whole(4);
-  const std::vector<Vector> sums = run(program(RowTask::compare, 0, 1, 4, RowTask::total, 2, 0, 1));
+  put(5, 2.0 * weights);
+  const std::vector<Vector> sums =
+      run(program(RowTask::compare, 0, 1, 4, 5, RowTask::total, 2, 0, 1));
   const Vector change = d - rate;
   const Vector added = total(sums);
   EXPECT_NEAR(added[0], change.cwiseAbs2().dot(weights), kOfOtherOrder * added[0]);
   EXPECT_NEAR(added[1], d.cwiseAbs2().dot(weights), kOfOtherOrder * added[1]);
   EXPECT_EQ(std::max({sums[0][2], sums[1][2], sums[2][2]}),
-            change.cwiseProduct(weights).cwiseAbs().maxCoeff());
+            change.cwiseProduct(2.0 * weights).cwiseAbs().maxCoeff());
   EXPECT_NEAR(added[3], d.sum() + rate.sum(), kOfOtherOrder * size());
 }
 
 TEST_F(RowsOfABody, MemoryOfDroppedVectorsIsUsedAgain) {
-  const double* before = workers[0].rows(kSpace, 2).data();
+  const double* before = threads.worker(0).rows(RowThreads::kSpace, 2).data();
   run(program(RowTask::drop, 2, RowTask::combine, 9, false, 0));
-  EXPECT_EQ(workers[0].rows(kSpace, 9).data(), before);
-  EXPECT_EQ(workers[0].num_vectors(), 3U);
-  workers[0].remove(kSpace);
-  EXPECT_EQ(workers[0].num_vectors(), 0U);
+  EXPECT_EQ(threads.worker(0).rows(RowThreads::kSpace, 9).data(), before);
+  EXPECT_EQ(threads.worker(0).num_vectors(), 3U);
+  threads.worker(0).remove(RowThreads::kSpace);
+  EXPECT_EQ(threads.worker(0).num_vectors(), 0U);
 }
 
 }  // namespace

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Vectors of large bodies over several processes: those that have their rows work on them, and the first one gets sums."""
+
+import json
+
+import pytest
+
+from models_of_many_variables import BLOW, CUBE, SHELLS, TWINS
+from mpi_runs import expect_same_energies, expect_same_stresses, mpirun, must, several, sets  # noqa: F401
+from test_solver import largest_difference, sensors
+
+
+@several
+def test_a_blow_to_a_body_whose_vectors_others_have(buckens, mpirun, tmp_path):
+    (tmp_path / "blow.yaml").write_text(BLOW)
+    buckens("run", "blow.yaml", "-o", "one").must(0)
+    must(mpirun(3, "run", "blow.yaml", "-o", "several"))
+    one = sensors(tmp_path / "one")
+    assert abs(one["lost"][-1]) > 1e-3 and one["speed.x"][-1] > -0.9, "it was struck"
+    assert largest_difference(sensors(tmp_path / "several"), one) < 1e-9
+    expect_same_energies(tmp_path / "several", tmp_path / "one")
+    expect_same_stresses(tmp_path / "several", tmp_path / "one")
+
+
+@several
+@pytest.mark.parametrize("count", [2, 3])
+def test_vectors_of_a_step_stay_with_the_other_processes(mpirun, tmp_path, count):
+    """The first process sends what is to be done with them, and receives sums.
+
+    Programs take an order, what it says, and sums: for values at the start of a step, the right-hand side, what follows from its solution, the
+    end of the step, and interface values for the account of work. A solve takes an order and tells twice whether a process has failed. A record
+    asks for interface values by two programs, for itself and for the energies, brings displacements, rates and accelerations, and asks for the
+    products of its energies by one order and for its stresses by another.
+    """
+    (tmp_path / "cube.yaml").write_text(CUBE)
+    change = sets("bodies.cube.coupling=none", "simulation.duration=1 ms", "output.every=1 ms")
+    must(mpirun(count, "run", "cube.yaml", "-o", "out", *change))
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    steps, dof = summary["steps"], summary["bodies"]["cube"]["dof"]
+    assert summary["bodies"]["cube"]["solves"] == steps == 10
+    others = count - 1
+    program, solve = 3 * others, 5 * others
+    # Of the first process's rows of the factor, from all and back to all.
+    through_factor = 2 * others
+    record = 2 * program + 3 * (2 * others) + 2 * (3 * others)
+    # Displacements and rates are the same zeros at first, and both accelerations are the same.
+    start = 2 * (4 * others)
+    messages = summary["measures"]["messages_per_step"] * steps
+    assert messages == pytest.approx(steps * (5 * program + solve + through_factor) + record + start, rel=1e-12)
+    if count > 2:  # borders between rows of products are counted twice
+        return
+    # Three vectors, M and K times one each, and the rows of stresses; and two vectors at first.
+    stresses = 6 * 18**3
+    of_record = 8 * (3 * dof + 2 * 2 * dof + dof + stresses)
+    per_step = (summary["measures"]["bytes_per_step"] * steps - of_record - 2 * 8 * dof) / steps
+    # Each way what the first process has of the factor: subtrees of the order of elimination, which differ in size.
+    assert 2 * 8 * 0.25 * dof < per_step < 2 * 8 * 0.75 * dof
+
+
+def bytes_per_solve(directory, of_records):
+    """Of a run's steps, without those of its records [numbers of eight bytes]."""
+    summary = json.loads((directory / "summary.json").read_text())
+    body = next(iter(summary["bodies"].values()))
+    return (summary["measures"]["bytes_per_step"] * summary["steps"] - 8 * of_records) / body["solves"]
+
+
+@several
+def test_kept_pairs_are_combined_where_their_rows_are(mpirun, tmp_path):
+    """Changes of the coupling load do not come to the first process, whether pairs answer them or not."""
+    (tmp_path / "cube.yaml").write_text(CUBE)
+    must(mpirun(2, "run", "cube.yaml", "-o", "out", *sets("simulation.duration=3 ms", "output.every=3 ms")))
+    body = json.loads((tmp_path / "out" / "summary.json").read_text())["bodies"]["cube"]
+    dof, made = body["dof"], body["solves"] - 30
+    assert body["recycled"] >= 15 and made >= 8, "there are changes of both kinds"
+    # Two records as above, and two vectors at first.
+    per_solve = bytes_per_solve(tmp_path / "out", 2 * (8 * dof + 6 * 18**3) + 2 * dof)
+    # Each way what the first process has of the factor. Changes would add twelve numbers per variable.
+    assert 2 * 8 * 0.25 * dof < per_solve < 2 * 8 * 0.75 * dof
+
+
+@several
+def test_vectors_of_shells_stay_with_the_other_processes(mpirun, tmp_path):
+    """Of bodies whose inertia does not act node by node, too, and their products with M."""
+    (tmp_path / "plate.yaml").write_text(SHELLS)
+    must(mpirun(2, "run", "plate.yaml", "-o", "out", *sets("simulation.duration=2 ms", "output.every=2 ms", "bodies.plate.coupling=none")))
+    body = json.loads((tmp_path / "out" / "summary.json").read_text())["bodies"]["plate"]
+    dof = body["dof"]
+    assert body["solves"] == 20
+    # Two records with stresses of two layers of each shell, and two vectors at first.
+    per_solve = bytes_per_solve(tmp_path / "out", 2 * (8 * dof + 12 * 58**2) + 2 * dof)
+    assert 2 * 8 * 0.25 * dof < per_solve < 2 * 8 * 0.75 * dof
+
+
+def solves_of(directory):
+    bodies = json.loads((directory / "summary.json").read_text())["bodies"]
+    return {name: (body["solves"], body.get("recycled", 0)) for name, body in bodies.items()}
+
+
+@several
+def test_equal_bodies_learn_from_each_other(buckens, mpirun, tmp_path):
+    """What one has just learned is taken from what the other learns in the same step."""
+    (tmp_path / "twins.yaml").write_text(TWINS)
+    change = sets("simulation.duration=2 ms", "output.every=1 ms")
+    buckens("run", "twins.yaml", "-o", "one", *change).must(0)
+    must(mpirun(2, "run", "twins.yaml", "-o", "two", *change))
+    assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < 1e-9
+    one, two = solves_of(tmp_path / "one"), solves_of(tmp_path / "two")
+    assert sum(recycled for _, recycled in one.values()) >= 10
+    for name, counts in one.items():
+        # The same but for loads whose remainder is at its limit.
+        assert two[name] == pytest.approx(counts, abs=1), name
+
+
+@several
+def test_pairs_that_were_just_made_are_saved(mpirun, tmp_path):
+    (tmp_path / "cube.yaml").write_text(CUBE)
+    change = sets("output.every=0.1 ms")
+    must(mpirun(2, "run", "cube.yaml", "-o", "whole", *change, "--set", "simulation.duration=2 ms"))
+    must(mpirun(2, "run", "cube.yaml", "-o", "parts", *change, "--set", "simulation.duration=0.3 ms"))
+    assert solves_of(tmp_path / "parts") == {"cube": (6, 0)}, "each change was solved for"
+    must(mpirun(2, "run", "--continue", "parts", "--until", "2 ms"))
+    (solves, recycled), (rest, recycled_there) = solves_of(tmp_path / "whole")["cube"], solves_of(tmp_path / "parts")["cube"]
+    assert (6 + rest, recycled_there) == (solves, recycled)
+    whole, parts = sensors(tmp_path / "whole"), sensors(tmp_path / "parts")
+    assert largest_difference(parts, whole) < 1e-12
