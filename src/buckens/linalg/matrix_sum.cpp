@@ -2,6 +2,7 @@
 #include "buckens/linalg/matrix_sum.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "buckens/linalg/divided_matrix.h"
@@ -148,6 +149,12 @@ void MatrixSum::require_finite() const {
     if (was_asked) continue;
     if (term.nodes() != nullptr && term.nodes()->coeffs().allFinite()) continue;
     linalg::require_finite(term.whole());
+  }
+  // Sums of finite entries may not be. If one beside the diagonal is not, and none on it, A is not
+  // definite, which its factorisation finds.
+  const Vector entries = diagonal();
+  for (Index k = 0; k < entries.size(); ++k) {
+    if (!std::isfinite(entries[k])) linalg::require_finite(columns(k, 1), static_cast<int>(k));
   }
 }
 

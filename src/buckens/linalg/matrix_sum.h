@@ -38,7 +38,7 @@ class MatrixSum {
   /// Has all terms in this process, so that threads may read columns.
   void form_terms() const;
   Vector diagonal() const;
-  /// @throws NumericalError if an entry of a term is not finite
+  /// @throws NumericalError if an entry of a term is not finite, or one on the diagonal of the sum
   void require_finite() const;
 
   struct Term {

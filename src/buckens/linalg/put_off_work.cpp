@@ -2,7 +2,9 @@
 #include "buckens/linalg/put_off_work.h"
 
 #include <array>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -21,6 +23,12 @@ base::BytesTo& waiting() {
   return tasks;
 }
 
+/// Why work failed that was finished where nobody could be told.
+std::string& untold() {
+  static std::string why;
+  return why;
+}
+
 }  // namespace
 
 void PutOffWork::add(int space, std::span<const std::byte> tasks) {
@@ -30,6 +38,7 @@ void PutOffWork::add(int space, std::span<const std::byte> tasks) {
 }
 
 void PutOffWork::finish_with_sums(std::size_t sums_each, double* sums) {
+  if (!untold().empty()) throw NumericalError(std::exchange(untold(), {}));
   const std::vector<std::byte> program = waiting().take();
   if (program.empty()) return;
   std::array<char, 400> error{};
@@ -46,8 +55,8 @@ void PutOffWork::finish_with_sums(std::size_t sums_each, double* sums) {
 void PutOffWork::finish_at_end() noexcept {
   try {
     finish();
-  } catch (const std::exception&) {
-    // What failed there is told when something is asked for that depends on it.
+  } catch (const std::exception& failure) {
+    untold() = failure.what();
   }
 }
 

@@ -16,7 +16,8 @@ class PutOffWork {
   static void add(int space, std::span<const std::byte> tasks);
   /// Has the others do them. @throws NumericalError if memory is too small
   static void finish() { finish_with_sums(0, nullptr); }
-  /// The same before something is forgotten, where an error would come too late.
+  /// The same before something is forgotten, where no error can be thrown: the next of the others
+  /// throws it.
   static void finish_at_end() noexcept;
   /// The same. @param sums of each process, one after the other
   static void finish_with_sums(std::size_t sums_each, double* sums);

@@ -149,6 +149,9 @@ TEST(MatrixSumTest, FactorsOfASumRefuseWhatIsNotFiniteOrDefinite) {
   MatrixSum sum;
   sum.add(-1.0, K);
   EXPECT_THROW(SparseCholesky{sum}, IndefiniteMatrix);
+  K.coeffRef(5, 5) = 1e308;
+  sum.add(20.0, K);
+  EXPECT_THROW(SparseCholesky{sum}, NumericalError) << "finite terms";
   K.coeffRef(5, 5) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(SparseCholesky{sum}, NumericalError);
 }
