@@ -11,12 +11,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 #include <sys/wait.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/base/test/temporary_directory.h"
 #include "buckens/run_store/run_reader.h"
+#include "buckens/run_store/test/file_size_limit.h"
 #include "buckens/run_store/test/sample_run.h"
 
 namespace buckens::run_store {
@@ -43,31 +43,6 @@ void write_run(const std::filesystem::path& path, std::size_t records, bool fini
   for (std::size_t i = 0; i < records; ++i) run.write(sample_record(i, layout.num_values()));
   if (finish) run.finish(finished_summary());
 }
-
-/// During its lifetime, files cannot grow beyond `bytes`: as on a full disk.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    set({bytes, before_.rlim_max});
-  }
-  ~FileSizeLimit() {
-    set(before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  /// For this process and those that write for it.
-  static void set(const rlimit& limit) {
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-    std::ifstream children("/proc/thread-self/children");
-    for (pid_t child = 0; children >> child;) ::prlimit(child, RLIMIT_FSIZE, &limit, nullptr);
-  }
-
-  rlimit before_{};
-  void (*handler_)(int) = nullptr;
-};
 
 /// As a chain of 1000 links has them; HDF5 used freed memory where it made room among them.
 TEST(RunDirectory, KeepsThousandsOfChannels) {

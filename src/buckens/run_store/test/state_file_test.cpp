@@ -13,6 +13,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/base/sanitizers.h"
 #include "buckens/files/output_file.h"
+#include "buckens/run_store/test/file_size_limit.h"
 
 namespace buckens::run_store {
 namespace {
@@ -69,6 +70,24 @@ TEST(StateFile, HasNumbersOfSinglePrecisionAmongTheOthers) {
         base::SaveVisit::restoring(*from).inside("pairs").inside(0).vector("load", load, 4),
         InputError);
   }
+}
+
+TEST(StateFile, AFullDiskLeavesTheStateThatWasThere) {
+  const base::SavedValues before = some_state();
+  write_state(before, some_path());
+  base::SavedValues large = before;
+  large.numbers["more"].assign(20000, 0.5);
+  // Neither the first list, nor the last, nor the trailer has room.
+  for (const rlim_t limit : {100, 50000, 165000}) {
+    const FileSizeLimit full_disk(limit);
+    EXPECT_THAT([&] { write_state(large, some_path()); },
+                ThrowsMessage<IoError>(testing::AllOf(HasSubstr("cannot write the file"),
+                                                      HasSubstr("File too large"))))
+        << limit;
+  }
+  EXPECT_EQ(read_state(some_path()), before);
+  EXPECT_FALSE(std::filesystem::exists(some_path().string() + ".part"));
+  std::filesystem::remove(some_path());
 }
 
 #if !BUCKENS_IS_SANITIZED && defined(__linux__)
