@@ -116,26 +116,35 @@ Json json_of(const VibrationReport& report, const Vibration& v) {
   return out;
 }
 
+Json json_of(const analysis::VibrationWork& work) {
+  Json out = {{"method", work.method},
+              {"shift", work.shift},
+              {"penalty", work.penalty},
+              {"sweeps", work.sweeps},
+              {"solves", work.solves},
+              {"factorisations", work.factorisations},
+              {"factor_entries", work.factor_entries},
+              {"condition", work.condition > 0.0 ? Json(work.condition) : Json(nullptr)},
+              {"seconds", work.seconds}};
+  if (linalg::Ranks::count() > 1) {
+    out["processes"] = linalg::Ranks::count();
+    out["messages"] = work.traffic.messages;
+    out["bytes"] = work.traffic.bytes;
+    out["bytes_of_whole_matrices"] = work.traffic.bytes_of_whole_matrices;
+  }
+  return out;
+}
+
 Json json_of(const VibrationReport& report) {
   Json modes = Json::array();
   for (const Vibration& v : report.vibrations) modes.push_back(json_of(report, v));
-  const auto& work = report.work;
   return {{"kind", report.is_system() ? "system" : "free"},
           {"body", report.is_system() ? Json(nullptr) : Json(report.subject)},
           {"dof", report.dof},
           {"rigid_modes", report.rigid_modes},
           {"mass", report.mass},
           {"modes", std::move(modes)},
-          {"work",
-           {{"method", work.method},
-            {"shift", work.shift},
-            {"penalty", work.penalty},
-            {"sweeps", work.sweeps},
-            {"solves", work.solves},
-            {"factorisations", work.factorisations},
-            {"factor_entries", work.factor_entries},
-            {"condition", work.condition > 0.0 ? Json(work.condition) : Json(nullptr)},
-            {"seconds", work.seconds}}},
+          {"work", json_of(report.work)},
           {"notes", report.notes}};
 }
 

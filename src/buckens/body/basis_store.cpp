@@ -3,8 +3,6 @@
 
 #include <bit>
 
-#include "buckens/linalg/node_matrix.h"
-
 namespace buckens::body {
 
 namespace {
@@ -42,13 +40,11 @@ class Hash {
 std::uint64_t basis_key(const FlexiblePart& part, const std::string& choice) {
   Hash hash;
   for (const char letter : choice) hash.add(static_cast<std::uint64_t>(letter));
-  const linalg::SparseMatrix* nodes = part.fe.M.nodes();
-  if (nodes != nullptr) {  // not to stay in memory
-    hash.add_matrix(linalg::of_variables(*nodes));
-  } else {
-    hash.add_matrix(part.fe.M.whole());
+  // The same numbers wherever the matrices are.
+  for (const linalg::SymmetricMatrix* A : {&part.fe.M, &part.fe.K}) {
+    hash.add(static_cast<std::uint64_t>(A->rows()));
+    for (const std::uint64_t number : A->content()) hash.add(number);
   }
-  hash.add_matrix(part.fe.K.whole());
   const Eigen::SparseMatrix<double, Eigen::RowMajor> N = part.rows.topRows(part.num_interface_rows);
   hash.add_matrix(N);
   hash.add(static_cast<std::uint64_t>(part.num_pattern_rows));

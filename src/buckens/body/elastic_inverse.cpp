@@ -14,6 +14,7 @@ namespace buckens::body {
 
 using linalg::Matrix;
 using linalg::SparseMatrix;
+using linalg::SymmetricMatrix;
 using linalg::Vector;
 
 namespace {
@@ -44,7 +45,7 @@ std::vector<int> isostatic_variables(const fem::FeModel& fe, const Sieve& sieve,
   return held;
 }
 
-/// K with the rows and columns of the held variables replaced by those of a diagonal matrix.
+/// K_g of a K that is whole.
 SparseMatrix grounded(const SparseMatrix& K, const std::vector<int>& held) {
   const auto is_held = [&held](Eigen::Index k) {
     return std::binary_search(held.begin(), held.end(), static_cast<int>(k));
@@ -59,12 +60,23 @@ SparseMatrix grounded(const SparseMatrix& K, const std::vector<int>& held) {
   return out;
 }
 
-std::shared_ptr<const linalg::Factor> factorise(const std::string& body, const SparseMatrix& K,
+std::shared_ptr<const linalg::Factor> make_grounded(const SymmetricMatrix& K,
+                                                    const std::vector<int>& held,
+                                                    const linalg::MakeFactor& make) {
+  if (!K.is_divided()) return make(grounded(K, held));
+  const SymmetricMatrix difference = grounding(K, held);
+  linalg::MatrixSum sum;
+  sum.add(1.0, K);
+  sum.add(1.0, difference);
+  return make(sum);
+}
+
+std::shared_ptr<const linalg::Factor> factorise(const std::string& body, const SymmetricMatrix& K,
                                                 const std::vector<int>& held,
                                                 const linalg::MakeFactor& make) {
   return of_body(body, [&] {
     try {
-      return make(grounded(K, held));
+      return make_grounded(K, held, make);
     } catch (const linalg::IndefiniteMatrix&) {
       refuse(body);
     }
@@ -72,6 +84,26 @@ std::shared_ptr<const linalg::Factor> factorise(const std::string& body, const S
 }
 
 }  // namespace
+
+SparseMatrix grounding(const SymmetricMatrix& K, const std::vector<int>& held) {
+  const Vector diagonal = K.diagonal();
+  const double size = diagonal.maxCoeff();
+  std::vector<linalg::Triplet> entries;
+  for (const int k : held) {
+    // Each entry times one, plus zeros: the entries of K themselves.
+    const Vector column = K * Vector::Unit(K.rows(), k);
+    for (int i = 0; i < static_cast<int>(column.size()); ++i) {
+      if (column[i] == 0.0 || i == k) continue;
+      entries.emplace_back(i, k, -column[i]);
+      // The column of another held variable has the entry across the diagonal.
+      if (!std::binary_search(held.begin(), held.end(), i)) entries.emplace_back(k, i, -column[i]);
+    }
+    entries.emplace_back(k, k, size - diagonal[k]);
+  }
+  SparseMatrix out(K.rows(), K.cols());
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
 
 ElasticInverse::ElasticInverse(const std::string& body, const fem::FeModel& fe, const Sieve& sieve,
                                double length, const linalg::MakeFactor& make)

@@ -11,6 +11,11 @@
 
 namespace buckens::body {
 
+/// K_g − K, where K_g is K with the rows and columns of the held variables replaced by those of a
+/// diagonal matrix. Reads nothing of K but its diagonal and products, as other processes may have
+/// it. @param held ascending
+linalg::SparseMatrix grounding(const linalg::SymmetricMatrix& K, const std::vector<int>& held);
+
 /// K⁺ of a free mesh: the sieved deformation under loads with inertia relief.
 ///
 /// K is singular by the rigid modes Φ. With exactly rank(Φ) variables held (isostatic grounding)

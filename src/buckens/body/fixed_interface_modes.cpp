@@ -13,12 +13,13 @@
 #include "buckens/linalg/inverse_iteration.h"
 #include "buckens/linalg/pivoted_qr.h"
 #include "buckens/linalg/pseudo_inverse.h"
-#include "buckens/linalg/sparse_cholesky.h"
+#include "buckens/linalg/ranks.h"
 #include "buckens/linalg/symmetric_eigen.h"
 
 namespace buckens::body {
 
 using linalg::Matrix;
+using linalg::SparseMatrix;
 using linalg::Vector;
 
 namespace {
@@ -69,12 +70,12 @@ FreeModes iterate_fixed(const FlexiblePart& part, const Matrix& columns, int cou
   const linalg::SymmetricMatrix& M = part.fe.M;
   const double bound = lowest_square_estimate(part);
   const double shift = bound > 0.0 ? 0.3 * bound : cautious_shift(M, part.fe.K);
-  const linalg::SparseCholesky factor(shifted(part.fe.K, shift, M));
-  const Matrix G = factor.solve(columns);
+  const auto factor = linalg::make_large_factor(shifted(part.fe.K, shift, M));
+  const Matrix G = factor->solve(columns);
   linalg::PseudoInverse stiffness;
   stiffness.compute(columns.transpose() * G);
   const auto inverse = [&](Matrix& F) {
-    F = factor.solve(F);
+    F = factor->solve(F);
     F -= G * (stiffness * Matrix(columns.transpose() * F));
   };
   linalg::InverseIterationSettings settings;

@@ -6,6 +6,7 @@
 #include "buckens/body/dense_free_modes.h"
 #include "buckens/body/iterated_modes.h"
 #include "buckens/body/sieve.h"
+#include "buckens/linalg/ranks.h"
 
 namespace buckens::body {
 
@@ -41,9 +42,9 @@ FreeModes free_modes(const SymmetricMatrix& M, const SymmetricMatrix& K, const M
   if (is_dense_better(M.rows(), wanted)) {
     modes = dense_free_modes(M, K, Phi, sieve);
   } else {
-    modes =
-        iterate_with_shift(M, K, sieve, cautious_shift(M, K), static_cast<int>(wanted), kTolerance)
-            .modes;
+    modes = iterate_with_shift(M, K, sieve, cautious_shift(M, K), static_cast<int>(wanted),
+                               kTolerance, linalg::make_large_factor)
+                .modes;
   }
   const Eigen::Index found = std::min(wanted, modes.omega.size());
   modes.omega = modes.omega.head(found).eval();

@@ -16,30 +16,26 @@ namespace {
 constexpr double kGigabyte = 1e9;
 }  // namespace
 
-SolverDecision decide_solver(const SolverChoice& choice, const linalg::SparseMatrix& A,
+SolverDecision decide_solver(const SolverChoice& choice, const linalg::MatrixSum& A,
                              double memory) {
   if (choice.kind != SolverKind::automatic) return {choice.kind == SolverKind::iterative, {}};
-  const double most = linalg::most_factor_bytes(A.rows());
+  const double most = linalg::most_factor_bytes(A.size());
   if (most <= memory) {
     return {false, fmt::format("direct, since no factor of {} variables takes more than {:.3g} GB "
                                "(usable: {:.3g} GB)",
-                               A.rows(), most / kGigabyte, memory / kGigabyte)};
+                               A.size(), most / kGigabyte, memory / kGigabyte)};
   }
-  const linalg::PredictedFactor predicted = linalg::predict_factor(A);
+  const linalg::SparseMatrix* alone = A.alone();
+  const linalg::PredictedFactor predicted = linalg::predict_factor(alone ? *alone : A.whole());
   const std::string sizes = fmt::format(
       "the factor of {} variables is predicted to take {:.3g} GB, {:.3g} GB while it is computed "
       "(usable: {:.3g} GB)",
-      A.rows(), predicted.bytes / kGigabyte, predicted.peak / kGigabyte, memory / kGigabyte);
+      A.size(), predicted.bytes / kGigabyte, predicted.peak / kGigabyte, memory / kGigabyte);
   if (predicted.peak <= memory) return {false, "direct, since " + sizes};
   const std::string missing = linalg::missing_grid_solver();
   if (missing.empty()) return {true, "iterative, since " + sizes};
   return {false, fmt::format("direct, although {}, since there is no iterative solver: {}", sizes,
                              missing)};
-}
-
-SolverDecision decide_solver(const SolverChoice& choice, const linalg::MatrixSum& A) {
-  if (choice.kind != SolverKind::automatic) return {choice.kind == SolverKind::iterative, {}};
-  return decide_solver(choice, A.whole());
 }
 
 int variables_per_node(const fem::DofMap& dofs, Eigen::Index size) {
@@ -68,16 +64,9 @@ std::shared_ptr<const linalg::Factor> make_iterative(const FlexiblePart& part,
   return std::make_shared<const linalg::IterativeSolver>(A, part.sieve.Phi(), settings);
 }
 
-std::shared_ptr<const linalg::Factor> make_iterative(const FlexiblePart& part,
-                                                     const linalg::SparseMatrix& A) {
-  linalg::MatrixSum alone;
-  alone.add(1.0, A);
-  return make_iterative(part, alone);
-}
-
 linalg::MakeFactor solver_of(const FlexiblePart& part) {
   if (part.solver.kind == SolverKind::direct) return linalg::make_large_factor;
-  return [&part](const linalg::SparseMatrix& A) -> std::shared_ptr<const linalg::Factor> {
+  return [&part](const linalg::MatrixSum& A) -> std::shared_ptr<const linalg::Factor> {
     if (!decide_solver(part.solver, A).iterates) return linalg::make_large_factor(A);
     return make_iterative(part, A);
   };

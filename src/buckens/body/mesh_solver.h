@@ -17,13 +17,10 @@ struct SolverDecision {
 };
 
 /// Automatic: by a factor if its predicted memory is usable, or if there is no iterative solver.
-/// @param A the matrix, or one with its pattern
+/// @param A the matrix, or one with its pattern; formed whole only where that has to be known
 /// @param memory that the factor may take [bytes]
-SolverDecision decide_solver(const SolverChoice& choice, const linalg::SparseMatrix& A,
+SolverDecision decide_solver(const SolverChoice& choice, const linalg::MatrixSum& A,
                              double memory = base::usable_memory());
-
-/// The same of a sum, which is formed whole only where its pattern has to be known.
-SolverDecision decide_solver(const SolverChoice& choice, const linalg::MatrixSum& A);
 
 /// Solves by iteration, with the rigid motions of the body as those of little energy.
 /// @param A positive definite, of the variables of the body
@@ -31,8 +28,6 @@ SolverDecision decide_solver(const SolverChoice& choice, const linalg::MatrixSum
 /// @throws NumericalError if it cannot be made, as with unknown options of PETSc
 std::shared_ptr<const linalg::Factor> make_iterative(const FlexiblePart& part,
                                                      const linalg::MatrixSum& A);
-std::shared_ptr<const linalg::Factor> make_iterative(const FlexiblePart& part,
-                                                     const linalg::SparseMatrix& A);
 
 /// Makes factors, or what takes their place, as chosen for the body, which must outlive it.
 linalg::MakeFactor solver_of(const FlexiblePart& part);

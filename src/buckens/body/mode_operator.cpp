@@ -12,7 +12,6 @@
 #include "buckens/linalg/dense_ldlt.h"
 #include "buckens/linalg/factor_threads.h"
 #include "buckens/linalg/matrix_sum.h"
-#include "buckens/linalg/shared_matrix.h"
 #include "buckens/linalg/sparse_lu.h"
 #include "buckens/linalg/tall_products.h"
 
@@ -59,6 +58,14 @@ SparseMatrix bordered(const SparseMatrix& K, const Matrix& P) {
   return out;
 }
 
+/// (K + μM) x by one order where other processes have both.
+Vector shifted_product(const SymmetricMatrix& K, double shift, const SymmetricMatrix& M,
+                       const Vector& x) {
+  Vector stiffness, mass;
+  linalg::multiply({{&K, &x, &stiffness}, {&M, &x, &mass}});
+  return stiffness + shift * mass;
+}
+
 double largest_by_power(const std::function<Vector(const Vector&)>& apply, Eigen::Index size) {
   Vector x = linalg::scattered_block(size, 1, 3);
   double norm = 0.0;
@@ -73,17 +80,17 @@ double largest_by_power(const std::function<Vector(const Vector&)>& apply, Eigen
 
 }  // namespace
 
-SparseMatrix shifted(const SymmetricMatrix& K, double shift, const SymmetricMatrix& M) {
+linalg::MatrixSum shifted(const SymmetricMatrix& K, double shift, const SymmetricMatrix& M) {
   linalg::MatrixSum sum;
   sum.add(1.0, K);
   sum.add(shift, M);
-  return sum.whole();
+  return sum;
 }
 
 ModeOperator sieved_operator(const SymmetricMatrix& M, const SymmetricMatrix& K, const Sieve& sieve,
                              double shift, const linalg::MakeFactor& make) {
-  const std::shared_ptr<const SparseMatrix> A = linalg::shared_matrix(shifted(K, shift, M));
-  const auto factor = make(*A);
+  const linalg::MatrixSum A = shifted(K, shift, M);
+  const auto factor = make(A);
   ModeOperator op;
   op.shift = shift;
   op.factor_entries = factor->num_factor_entries();
@@ -103,13 +110,13 @@ ModeOperator sieved_operator(const SymmetricMatrix& M, const SymmetricMatrix& K,
     factor->solve_in_place(F, pool.get());
     remove(*Phi, *P);
   };
-  op.multiply = [A](const Vector& x) -> Vector { return *A * x; };
+  op.multiply = [&K, &M, shift](const Vector& x) { return shifted_product(K, shift, M, x); };
   op.solve = [factor](const Vector& b) -> Vector {
     Vector x = b;
     factor->solve_in_place(x);
     return x;
   };
-  op.scale = unit_diagonal(A->diagonal());
+  op.scale = unit_diagonal(A.diagonal());
   return op;
 }
 
@@ -175,8 +182,8 @@ ModeOperator full_penalty_operator(const SymmetricMatrix& K, const Matrix& P, do
 ModeOperator woodbury_penalty_operator(const SymmetricMatrix& M, const SymmetricMatrix& K,
                                        const Sieve& sieve, double penalty, double shift,
                                        const linalg::MakeFactor& make) {
-  const std::shared_ptr<const SparseMatrix> A = linalg::shared_matrix(shifted(K, shift, M));
-  const auto factor = make(*A);
+  const linalg::MatrixSum A = shifted(K, shift, M);
+  const auto factor = make(A);
   const auto P = std::make_shared<Matrix>(sieve.P());
   const auto Z = std::make_shared<Matrix>(factor->solve(*P));
   const Matrix small = Matrix::Identity(P->cols(), P->cols()) / penalty + P->transpose() * *Z;
@@ -190,11 +197,11 @@ ModeOperator woodbury_penalty_operator(const SymmetricMatrix& M, const Symmetric
   op.shift = shift;
   op.factor_entries = factor->num_factor_entries() + static_cast<double>(P->size() + Z->size());
   op.inverse = [solve](Matrix& F) { F = solve(F); };
-  op.multiply = [A, P, penalty](const Vector& x) -> Vector {
-    return *A * x + penalty * (*P * (P->transpose() * x));
+  op.multiply = [&K, &M, shift, P, penalty](const Vector& x) -> Vector {
+    return shifted_product(K, shift, M, x) + penalty * (*P * (P->transpose() * x));
   };
   op.solve = [solve](const Vector& b) -> Vector { return solve(b); };
-  op.scale = unit_diagonal(A->diagonal() + penalty * P->rowwise().squaredNorm());
+  op.scale = unit_diagonal(A.diagonal() + penalty * P->rowwise().squaredNorm());
   return op;
 }
 

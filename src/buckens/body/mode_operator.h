@@ -7,6 +7,7 @@
 #include "buckens/base/task_pool.h"
 #include "buckens/body/sieve.h"
 #include "buckens/linalg/inverse_iteration.h"
+#include "buckens/linalg/matrix_sum.h"
 #include "buckens/linalg/sparse_cholesky.h"
 
 namespace buckens::body {
@@ -25,11 +26,12 @@ struct ModeOperator {
   std::shared_ptr<TaskPool> pool;
 };
 
-/// K + μM, of which M may be given by node.
-linalg::SparseMatrix shifted(const linalg::SymmetricMatrix& K, double shift,
-                             const linalg::SymmetricMatrix& M);
+/// K + μM. @param K,M outlive it
+linalg::MatrixSum shifted(const linalg::SymmetricMatrix& K, double shift,
+                          const linalg::SymmetricMatrix& M);
 
 /// Y (K + μM)⁻¹Yᵀ, FM (30), (31): one sparse Cholesky factor, or what `make` makes in its place.
+/// @param M,K outlive what is returned
 /// @throws NumericalError if μ is lost in the rounding of K
 ModeOperator sieved_operator(const linalg::SymmetricMatrix& M, const linalg::SymmetricMatrix& K,
                              const Sieve& sieve, double shift,
@@ -46,6 +48,7 @@ ModeOperator augmented_operator(const linalg::SymmetricMatrix& K, const Sieve& s
 /// Up to 1500 variables the full matrix is formed and factorised literally: n²/2 entries
 /// and n³/6 multiplications. Above, the same inverse comes from the factor of K + μM with a
 /// rank-six correction (Woodbury), then with the shift μ.
+/// @param M,K outlive what is returned
 ModeOperator penalty_operator(const linalg::SymmetricMatrix& M, const linalg::SymmetricMatrix& K,
                               const Sieve& sieve, double penalty, double shift,
                               const linalg::MakeFactor& make = linalg::make_cholesky);

@@ -11,6 +11,7 @@
 #include "buckens/body/mode_groups.h"
 #include "buckens/linalg/pivoted_qr.h"
 #include "buckens/linalg/pseudo_inverse.h"
+#include "buckens/linalg/ranks.h"
 #include "buckens/linalg/symmetric_eigen.h"
 
 namespace buckens::body {
@@ -190,7 +191,7 @@ ReducedBasis free_free_basis(const std::string& body, const FlexiblePart& part, 
   out.num_modes = static_cast<int>(free.omega.size());
   Matrix columns = free.shapes;
   if (part.num_interface_rows > 0 && free.omega.size() > 0) {
-    const ElasticInverse inverse(body, part.fe, part.sieve, length);
+    const ElasticInverse inverse(body, part.fe, part.sieve, length, linalg::make_large_factor);
     const StaticShapes exact = static_shapes(part, inverse, interface_loads(part));
     out.static_share = lacking_share(exact, free.shapes, free.omega);
     if (static_correction) {
@@ -205,7 +206,7 @@ ReducedBasis free_free_basis(const std::string& body, const FlexiblePart& part, 
 ReducedBasis craig_bampton_basis(const std::string& body, const FlexiblePart& part,
                                  const CraigBamptonChoice& choice, double length) {
   const linalg::SymmetricMatrix& M = part.fe.M;
-  const ElasticInverse inverse(body, part.fe, part.sieve, length);
+  const ElasticInverse inverse(body, part.fe, part.sieve, length, linalg::make_large_factor);
   const Matrix all_loads = interface_loads(part);
   const Matrix loads = all_loads.leftCols(part.num_held_rows());
   const Matrix displaced = inverse.solve_checked(self_equilibrated(part, loads));
@@ -237,7 +238,7 @@ ReducedBasis quasi_static_basis(const std::string& body, const FlexiblePart& par
     out.num_modes = static_cast<int>(shapes.cols());
     if (out.num_modes > 0) out.highest_mode = free.omega[free.omega.size() - 1];
   }
-  const ElasticInverse inverse(body, part.fe, part.sieve, length);
+  const ElasticInverse inverse(body, part.fe, part.sieve, length, linalg::make_large_factor);
   const Matrix loads = beside(interface_loads(part), part.invariants.centrifugal_patterns());
   const StaticShapes exact = static_shapes(part, inverse, loads);
   diagonalise(part, beside(shapes, residuals(part.fe.M, shapes, exact.shapes)), out);

@@ -3,6 +3,7 @@
 
 #include <climits>
 #include <memory>
+#include <string>
 
 #include "buckens/base/errors.h"
 #include "buckens/linalg/matrix_types.h"
@@ -14,11 +15,13 @@ namespace buckens::linalg {
 class IndefiniteMatrix : public NumericalError {
  public:
   IndefiniteMatrix(Eigen::Index size, Eigen::Index column);
-  /// Row of the original matrix whose pivot is not positive.
+  /// Where the column is not known.
+  explicit IndefiniteMatrix(const std::string& text) : NumericalError(text) {}
+  /// Row of the original matrix whose pivot is not positive; −1 if it is not known.
   Eigen::Index column() const { return column_; }
 
  private:
-  Eigen::Index column_;
+  Eigen::Index column_ = -1;
 };
 
 /// L Lᵀ = P A Pᵀ by CHOLMOD, with 32-bit indices where they can address every entry of L, otherwise

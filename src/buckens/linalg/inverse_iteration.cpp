@@ -33,9 +33,6 @@ constexpr int kSmoothing = 2;
 // Where A⁻¹M has many pairs of almost one size, θ grows for long: two sweeps may tell little of it.
 constexpr int kFirstJudged = 2, kLastJudged = 32;
 
-/// M X.
-using MassProduct = std::function<Matrix(const Matrix&)>;
-
 /// The growing basis V with M-orthonormal columns and T = VᵀM A⁻¹M V.
 class Subspace {
  public:
@@ -322,9 +319,10 @@ namespace {
 template <class Symmetric>
 InversePairs pairs_with(const Symmetric& M, const InverseOperator& inverse, const Matrix& deflated,
                         const InverseIterationSettings& settings) {
-  if (settings.count <= 0 || M.rows() == 0) return {Vector(0), Matrix(M.rows(), 0), Vector(0)};
-  const auto mass_times = [&](const Matrix& X) { return symmetric_product(M, X, settings.pool); };
-  return Subspace(mass_times, inverse, deflated, settings).run();
+  const MassProduct mass_times = [&](const Matrix& X) {
+    return symmetric_product(M, X, settings.pool);
+  };
+  return largest_inverse_pairs(mass_times, inverse, deflated, settings);
 }
 
 }  // namespace
@@ -339,6 +337,14 @@ InversePairs largest_inverse_pairs(const SymmetricMatrix& M, const InverseOperat
                                    const Matrix& deflated,
                                    const InverseIterationSettings& settings) {
   return pairs_with(M, inverse, deflated, settings);
+}
+
+InversePairs largest_inverse_pairs(const MassProduct& mass_times, const InverseOperator& inverse,
+                                   const Matrix& deflated,
+                                   const InverseIterationSettings& settings) {
+  const Eigen::Index size = deflated.rows();
+  if (settings.count <= 0 || size == 0) return {Vector(0), Matrix(size, 0), Vector(0)};
+  return Subspace(mass_times, inverse, deflated, settings).run();
 }
 
 }  // namespace buckens::linalg

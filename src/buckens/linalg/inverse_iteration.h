@@ -12,6 +12,9 @@ namespace buckens::linalg {
 /// xᵀM A⁻¹M y = yᵀM A⁻¹M x.
 using InverseOperator = std::function<void(Matrix&)>;
 
+/// M X.
+using MassProduct = std::function<Matrix(const Matrix&)>;
+
 struct InverseIterationSettings {
   int count = 10;  ///< eigenpairs wanted
   int block = 6;   ///< vectors iterated at the same time
@@ -55,6 +58,10 @@ InversePairs largest_inverse_pairs(const SparseMatrix& M, const InverseOperator&
                                    const Matrix& deflated,
                                    const InverseIterationSettings& settings);
 InversePairs largest_inverse_pairs(const SymmetricMatrix& M, const InverseOperator& inverse,
+                                   const Matrix& deflated,
+                                   const InverseIterationSettings& settings);
+/// The same of a mass matrix that need not exist as a whole.
+InversePairs largest_inverse_pairs(const MassProduct& mass_times, const InverseOperator& inverse,
                                    const Matrix& deflated,
                                    const InverseIterationSettings& settings);
 

@@ -49,6 +49,7 @@ struct SparseCholesky::Backend {
   PanelFactor::Workspace workspace;
 
   void factorise(const MatrixSum& A) {
+    if (const SparseMatrix* alone = A.alone()) return factorise(*alone, {});
     A.form_terms();
     // The key of a factor that is kept in a folder is that of the whole matrix.
     if (!FactorCache::folder().empty()) return factorise(A.whole(), {});
@@ -185,7 +186,7 @@ void SparseCholesky::solve_in_place(std::span<double* const> vectors, TaskPool* 
   backend_->solve_in_place(vectors, pool);
 }
 
-std::shared_ptr<const Factor> make_cholesky(const SparseMatrix& A) {
+std::shared_ptr<const Factor> make_cholesky(const MatrixSum& A) {
   return std::make_shared<const SparseCholesky>(A);
 }
 

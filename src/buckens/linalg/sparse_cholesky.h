@@ -74,6 +74,6 @@ class SparseCholesky final : public Factor {
 };
 
 /// The MakeFactor of this library: a SparseCholesky with default options.
-std::shared_ptr<const Factor> make_cholesky(const SparseMatrix& A);
+std::shared_ptr<const Factor> make_cholesky(const MatrixSum& A);
 
 }  // namespace buckens::linalg

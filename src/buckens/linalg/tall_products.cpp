@@ -7,6 +7,7 @@
 
 #include <cblas.h>
 
+#include "buckens/linalg/divided_matrix.h"
 #include "buckens/linalg/node_matrix.h"
 #include "buckens/linalg/row_parts.h"
 #include "buckens/linalg/single_thread.h"
@@ -79,6 +80,21 @@ Matrix combinations(const Eigen::Ref<const Matrix>& A, const Eigen::Ref<const Ma
   return out;
 }
 
+namespace {
+
+/// By orders for several columns at once. @pre A.is_divided()
+Matrix divided_product(const SymmetricMatrix& A, const Eigen::Ref<const Matrix>& X) {
+  Matrix out(A.rows(), X.cols());
+  std::vector<DividedMatrix::Product> products;
+  for (Eigen::Index k = 0; k < X.cols(); ++k) {
+    products.push_back({&A.divide(), X.col(k).data(), out.col(k).data()});
+  }
+  DividedMatrix::multiply(products);
+  return out;
+}
+
+}  // namespace
+
 Matrix symmetric_product(const SparseMatrix& A, const Eigen::Ref<const Matrix>& X, TaskPool* pool) {
   const Eigen::Index n = A.rows();
   Matrix out(n, X.cols());
@@ -111,6 +127,7 @@ Matrix symmetric_product(const SparseMatrix& A, const Eigen::Ref<const Matrix>& 
 
 Matrix symmetric_product(const SymmetricMatrix& A, const Eigen::Ref<const Matrix>& X,
                          TaskPool* pool) {
+  if (A.is_divided()) return divided_product(A, X);
   if (A.nodes() == nullptr) return symmetric_product(A.whole(), X, pool);
   Matrix out(X.rows(), X.cols());
   const NodeMatrix nodes = node_matrix(*A.nodes());

@@ -29,7 +29,8 @@ Matrix combinations(const Eigen::Ref<const Matrix>& A, const Eigen::Ref<const Ma
 /// @param A symmetric, both triangles stored
 Matrix symmetric_product(const SparseMatrix& A, const Eigen::Ref<const Matrix>& X,
                          TaskPool* pool = nullptr);
-/// The same of a matrix that may be given by node, without forming it.
+/// The same of a matrix that may be given by node, without forming it, or divided among processes,
+/// without bringing it back.
 Matrix symmetric_product(const SymmetricMatrix& A, const Eigen::Ref<const Matrix>& X,
                          TaskPool* pool = nullptr);
 

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr char kBasisFormat[] = "buckens reduced basis 1";
+constexpr char kBasisFormat[] = "buckens reduced basis 2";
 
 std::string text_of(std::uint64_t key) { return fmt::format("{:016x}", key); }
 

@@ -216,7 +216,7 @@ void BodyStepOperator::find_factor(const linalg::MatrixSum& K_hat, const FactorS
     factor_ = source.exchange->factor(K_hat.whole());
     is_shared_ = source.exchange->num_factorisations() == factorisations;
   } else {
-    factor_ = source.make ? source.make(K_hat.whole()) : linalg::make_large_factor_of(K_hat);
+    factor_ = source.make ? source.make(K_hat) : linalg::make_large_factor(K_hat);
   }
 }
 

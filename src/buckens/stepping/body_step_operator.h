@@ -23,7 +23,7 @@ struct FactorSource {
   const BodyStepOperator* twin = nullptr;
   /// Exchange through which other simulations may have the factor; null: none.
   linalg::SolveExchange* exchange = nullptr;
-  /// Makes the factor if nobody has it; empty: linalg::make_large_factor_of().
+  /// Makes the factor if nobody has it; empty: linalg::make_large_factor().
   linalg::MakeFactor make{};
 };
 

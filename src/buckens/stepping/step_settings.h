@@ -37,7 +37,7 @@ struct StepSettings {
   std::vector<char> released;
   /// Shares factors and solves with steppers that run side by side; null: alone.
   linalg::SolveExchange* exchange = nullptr;
-  /// Factorises the step matrices of bodies instead of linalg::make_large_factor_of(); an exchange
+  /// Factorises the step matrices of bodies instead of linalg::make_large_factor(); an exchange
   /// has its own.
   linalg::MakeFactor make_factor;
 

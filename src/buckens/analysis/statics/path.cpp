@@ -12,6 +12,7 @@
 
 #include "buckens/analysis/initial/assembly_moves.h"
 #include "buckens/analysis/initial/position_assembly.h"
+#include "buckens/analysis/simulation/step_traffic.h"
 #include "buckens/analysis/statics/continuation.h"
 #include "buckens/analysis/statics/descent.h"
 #include "buckens/analysis/statics/equilibrium.h"
@@ -79,6 +80,7 @@ class Path {
     }
     summary.wall_seconds.total = seconds();
     summary.wall_seconds.stepping = summary.wall_seconds.total - summary.wall_seconds.setup;
+    add_traffic(traffic_before_, summary);
     record_.finish(now_->point.load_factor);
     if (failure) std::rethrow_exception(failure);
     return summary;
@@ -111,6 +113,7 @@ class Path {
   const StaticPathOptions& options_;
   StaticSpec spec_;
   dynamics::MassMetric metric_;
+  const linalg::Traffic traffic_before_ = linalg::Ranks::traffic();
   Compliances compliances_;
   std::vector<std::string> notes_;  // of assembly
   model::State placed_;

@@ -98,8 +98,8 @@ TEST(StepSettings, ASolverThatIteratesGetsGoodEstimates) {
     const model::State expected = test::simulate(model, start, settings, 1e-4);
     double largest_error = 0.0;
     long changes = 0;
-    settings.make_factor = [&](const linalg::SparseMatrix& A) {
-      return std::make_shared<const EstimatedFactor>(A, largest_error, changes);
+    settings.make_factor = [&](const linalg::MatrixSum& A) {
+      return std::make_shared<const EstimatedFactor>(A.whole(), largest_error, changes);
     };
     const model::State found = test::simulate(model, start, settings, 1e-4);
     const linalg::Vector& d = expected.bodies[1].d;
@@ -137,8 +137,8 @@ TEST(StepSettings, AnIterationThatFailsNamesTheBody) {
   const model::Model model = test::slider_crank(12);
   const test::Start start = test::consistent_start(model);
   stepping::StepSettings settings = test::settings(stepping::Method::generalized_alpha, 1e-4);
-  settings.make_factor = [](const linalg::SparseMatrix& A) {
-    return std::make_shared<const Failing>(A);
+  settings.make_factor = [](const linalg::MatrixSum& A) {
+    return std::make_shared<const Failing>(A.whole());
   };
   stepping::Stepper stepper(model, settings, start.rows_in_use);
   model::State state = start.state;
@@ -162,9 +162,9 @@ TEST(StepSettings, AnotherFactorMaySolveForAllBodies) {
   const model::State expected = test::simulate(model, start, settings, 2e-3);
 
   long factors = 0, columns = 0;
-  settings.make_factor = [&](const linalg::SparseMatrix& A) {
+  settings.make_factor = [&](const linalg::MatrixSum& A) {
     ++factors;
-    return std::make_shared<const CountedFactor>(A, columns);
+    return std::make_shared<const CountedFactor>(A.whole(), columns);
   };
   stepping::Stepper stepper(model, settings, start.rows_in_use);
   model::State state = start.state;

@@ -54,7 +54,7 @@ class IterativeStepTest : public testing::Test {
 
   static stepping::StepSettings without_factor(const model::Model& model, long* iterations) {
     stepping::StepSettings out = with_factor();
-    out.make_factor = [&model, iterations](const linalg::SparseMatrix& A) {
+    out.make_factor = [&model, iterations](const linalg::MatrixSum& A) {
       linalg::IterationSettings settings;
       settings.block = 3;
       auto solver = std::make_shared<const linalg::IterativeSolver>(

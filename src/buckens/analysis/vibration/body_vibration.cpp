@@ -55,6 +55,7 @@ VibrationReport free_body_vibrations(const model::BuiltModel& built, int whole,
   if (w.is_divided()) undivided = model::undivided_part(w, b.flexible->coupling);
   const body::FlexiblePart& part = undivided ? *undivided : *b.flexible;
   const double size = std::sqrt(0.5 * part.fe.shape.J0.trace() / w.mass);
+  const linalg::Traffic before = linalg::Ranks::traffic();
   const auto begin = std::chrono::steady_clock::now();
   const body::FreeFreeModes modes =
       body::of_body(w.name, [&] { return body::free_free_modes(part, settings); });
@@ -75,7 +76,8 @@ VibrationReport free_body_vibrations(const model::BuiltModel& built, int whole,
               modes.factorisations,
               modes.factor_entries,
               modes.condition,
-              took.count()};
+              took.count(),
+              linalg::Ranks::traffic().since(before)};
   const StrainEnergyGroups groups(part.mesh());
   out.energy_groups = groups.names();
   for (Eigen::Index k = 0; k < modes.omega.size(); ++k) {

@@ -6,9 +6,11 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/body/mesh_solver.h"
+#include "buckens/body/mode_operator.h"
 #include "buckens/linalg/dense_cholesky.h"
 #include "buckens/linalg/pivoted_qr.h"
 #include "buckens/linalg/small_lu.h"
+#include "buckens/linalg/tall_products.h"
 
 namespace buckens::analysis {
 
@@ -27,6 +29,15 @@ void put_block(int row, int column, const Eigen::MatrixXd& block, std::vector<Tr
   for (int j = 0; j < block.cols(); ++j) {
     for (int i = 0; i < block.rows(); ++i) {
       if (block(i, j) != 0.0) to.emplace_back(row + i, column + j, block(i, j));
+    }
+  }
+}
+
+/// @param first its first row and column
+void put_matrix(int first, const SparseMatrix& A, std::vector<Triplet>& to) {
+  for (int j = 0; j < A.outerSize(); ++j) {
+    for (SparseMatrix::InnerIterator it(A, j); it; ++it) {
+      to.emplace_back(first + static_cast<int>(it.row()), first + j, it.value());
     }
   }
 }
@@ -97,11 +108,10 @@ void SystemPencil::add_masses() {
     put_block(place.first, place.first, -(T.transpose() * body.stand_in * T), gyration);
     if (!body.is_flexible()) continue;
     const int nodal = first_[b] + place.num_frame();
-    const SparseMatrix& M = body.flexible->fe.M;
-    for (int j = 0; j < M.outerSize(); ++j) {
-      for (SparseMatrix::InnerIterator it(M, j); it; ++it) {
-        mass.emplace_back(nodal + static_cast<int>(it.row()), nodal + j, it.value());
-      }
+    if (body.flexible->fe.M.is_divided()) {
+      blocks_[b].divided_mass = &body.flexible->fe.M;
+    } else {
+      put_matrix(nodal, body.flexible->fe.M.whole(), mass);
     }
     if (place.momenta == 0) continue;
     const Matrix L = blocks_[b].loads.rightCols(3) * body.rotation_basis;
@@ -113,6 +123,18 @@ void SystemPencil::add_masses() {
   }
   M_ = make_sparse(size_, size_, mass);
   gyration_ = make_sparse(tangent_.size, tangent_.size, gyration);
+}
+
+Matrix SystemPencil::times_mass(const Matrix& X) const {
+  Matrix out = linalg::symmetric_product(M_, X);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    if (blocks_[b].divided_mass == nullptr) continue;
+    const int first = first_[b] + tangent_.bodies[b].num_frame();
+    const Eigen::Index count = blocks_[b].divided_mass->rows();
+    out.middleRows(first, count) +=
+        linalg::symmetric_product(*blocks_[b].divided_mass, X.middleRows(first, count));
+  }
+  return out;
 }
 
 void SystemPencil::factorise(double mu) {
@@ -127,8 +149,7 @@ void SystemPencil::factorise(double mu) {
     const fem::FeModel& fe = body.flexible->fe;
     const body::Sieve& sieve = body.flexible->sieve;
     try {
-      block.factor =
-          body::solver_of(*body.flexible)(SparseMatrix(fe.K.whole() + mu * fe.M.whole()));
+      block.factor = body::solver_of(*body.flexible)(body::shifted(fe.K, mu, fe.M));
     } catch (const NumericalError& error) {
       throw NumericalError("body \"" + body.name + "\": " + error.text());
     }

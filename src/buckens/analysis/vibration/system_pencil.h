@@ -31,7 +31,8 @@ class SystemPencil {
   /// F ← the admissible motion (K + μM)⁻¹F.
   void apply(linalg::Matrix& F) const;
 
-  const linalg::SparseMatrix& M() const { return M_; }
+  /// M X.
+  linalg::Matrix times_mass(const linalg::Matrix& X) const;
   int size() const { return size_; }
   /// First unknown of a body: its frame coordinates, then its nodal variables.
   int first(std::size_t body) const { return first_[body]; }
@@ -57,6 +58,7 @@ class SystemPencil {
     Eigen::MatrixXd mobility;    // W⁻¹
     Eigen::MatrixXd compliance;  // F of this body
     std::shared_ptr<const linalg::Factor> factor;
+    const linalg::SymmetricMatrix* divided_mass = nullptr;  // of a mesh of which M_ has none
   };
 
   void add_masses();
@@ -69,7 +71,7 @@ class SystemPencil {
   std::vector<int> first_;
   int size_ = 0;
   double mu_ = 0;
-  linalg::SparseMatrix M_;
+  linalg::SparseMatrix M_;         // without the meshes that other processes have
   linalg::SparseMatrix gyration_;  // of s: frame rotation against relative momentum
   linalg::SparseMatrix gamma_;     // Γ + μ gyration
   linalg::SparseMatrix rows_;      // scaled

@@ -158,6 +158,9 @@ linalg::InversePairs SystemVibrations::iterate(SystemPencil& pencil) {
   settings.count = settings_.count;
   settings.tolerance = settings_.tolerance;
   const auto inverse = [&pencil](Matrix& F) { pencil.apply(F); };
+  const linalg::MassProduct mass_times = [&pencil](const Matrix& X) {
+    return pencil.times_mass(X);
+  };
   double shift = first_shift(pencil);
   double drowned = 0.0;
   for (int attempt = 1; attempt <= kMostShifts; ++attempt) {
@@ -181,7 +184,7 @@ linalg::InversePairs SystemVibrations::iterate(SystemPencil& pencil) {
     };
     if (attempt == kMostShifts) settings.is_worthwhile = nullptr;
     linalg::InversePairs pairs =
-        linalg::largest_inverse_pairs(pencil.M(), inverse, zero_, settings);
+        linalg::largest_inverse_pairs(mass_times, inverse, zero_, settings);
     out_.work.solves += pairs.solves;
     if (next == 0.0) {
       out_.work.sweeps = pairs.sweeps;
@@ -198,7 +201,7 @@ std::array<double, 3> SystemVibrations::effective_mass(const SystemPencil& penci
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {
     momentum += model_.bodies[b].mass * pencil.frame_part(b, x).tail<3>();
   }
-  const double mass = x.dot(pencil.M() * x);
+  const double mass = x.dot(pencil.times_mass(x).col(0));
   return {momentum.x() * momentum.x() / mass, momentum.y() * momentum.y() / mass,
           momentum.z() * momentum.z() / mass};
 }
@@ -258,7 +261,7 @@ void SystemVibrations::add_vibration(const SystemPencil& pencil, double theta, c
     v.shape.push_back({pencil.frame_part(b, x), std::move(d)});
   }
   const double largest = largest_motion_of(v.shape);
-  v.generalised_mass = x.dot(pencil.M() * x) / (largest * largest);
+  v.generalised_mass = x.dot(pencil.times_mass(x).col(0)) / (largest * largest);
   for (BodyShape& shape : v.shape) {
     shape.frame /= largest;
     shape.d /= largest;
@@ -269,17 +272,18 @@ void SystemVibrations::add_vibration(const SystemPencil& pencil, double theta, c
 
 /// Errors of the modes: one more application of the inverse.
 void SystemVibrations::judge(const SystemPencil& pencil, const Matrix& shapes) {
-  Matrix image = pencil.M() * shapes;
+  Matrix image = pencil.times_mass(shapes);
   pencil.apply(image);
   out_.work.solves += image.cols();
   for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
     Vibration& v = out_.vibrations[static_cast<std::size_t>(k)];
     const Vector left = shapes.col(k) - (v.square + out_.work.shift) * image.col(k);
-    v.error = std::sqrt(std::max(0.0, left.dot(pencil.M() * left)));
+    v.error = std::sqrt(std::max(0.0, left.dot(pencil.times_mass(left).col(0))));
   }
 }
 
 VibrationReport SystemVibrations::run() {
+  const linalg::Traffic before = linalg::Ranks::traffic();
   const auto begin = std::chrono::steady_clock::now();
   out_.subject = "system";
   out_.work.method = "subspace";
@@ -319,6 +323,7 @@ VibrationReport SystemVibrations::run() {
   out_.work.factor_entries = pencil.factor_entries();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   out_.work.seconds = took.count();
+  out_.work.traffic = linalg::Ranks::traffic().since(before);
   return std::move(out_);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "buckens/body/free_free_modes.h"
+#include "buckens/linalg/ranks.h"
 #include "buckens/model/state.h"
 
 namespace buckens::analysis {
@@ -45,6 +46,7 @@ struct VibrationWork {
   double factor_entries = 0;  ///< of the last factors
   double condition = 0;       ///< of the factored matrix; 0: not asked
   double seconds = 0;         ///< wall time
+  linalg::Traffic traffic;    ///< of the first process with others
 };
 
 /// Vibrations of one free body or of the assembled system.

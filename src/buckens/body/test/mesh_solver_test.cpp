@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "buckens/body/free_free_modes.h"
+#include "buckens/body/mode_operator.h"
 #include "buckens/fem/assembly/assemble.h"
 #include "buckens/fem/mesh/box_mesh.h"
 #include "buckens/linalg/grid_library.h"
@@ -57,8 +58,8 @@ TEST(MeshSolver, AnAutomaticChoiceGoesByMemory) {
 
 TEST(MeshSolver, OtherChoicesNeedNoReason) {
   const auto body = part({2, 1, 1}, {});
-  EXPECT_FALSE(decide_solver({}, body->fe.K, 1.0).iterates);
-  const SolverDecision asked = decide_solver({SolverKind::iterative, {}}, body->fe.K, 1e12);
+  EXPECT_FALSE(decide_solver({}, body->fe.K.whole(), 1.0).iterates);
+  const SolverDecision asked = decide_solver({SolverKind::iterative, {}}, body->fe.K.whole(), 1e12);
   EXPECT_TRUE(asked.iterates);
   EXPECT_EQ(asked.why, "");
 }
@@ -104,7 +105,7 @@ TEST_F(IterativeMeshTest, UnknownOptionsAreNamed) {
   const auto body =
       part({2, 2, 2}, {SolverKind::iterative, "-pc_gamg_treshold 0.01 -pc_gamg_agg_nsmooths 1"});
   try {
-    make_iterative(*body, body->fe.K.whole() + 1e5 * body->fe.M.whole());
+    make_iterative(*body, shifted(body->fe.K, 1e5, body->fe.M));
     FAIL();
   } catch (const NumericalError& error) {
     const std::string text = error.what();
@@ -116,8 +117,7 @@ TEST_F(IterativeMeshTest, UnknownOptionsAreNamed) {
 
 TEST_F(IterativeMeshTest, AndSoDoNamesThatPetscRefuses) {
   const auto body = part({2, 2, 2}, {SolverKind::iterative, "-pc_type magic"});
-  EXPECT_THROW(make_iterative(*body, body->fe.K.whole() + 1e5 * body->fe.M.whole()),
-               NumericalError);
+  EXPECT_THROW(make_iterative(*body, shifted(body->fe.K, 1e5, body->fe.M)), NumericalError);
 }
 
 TEST_F(IterativeMeshTest, FindsTheModesOfAFactor) {

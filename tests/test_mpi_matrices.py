@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Modes, statics and reductions of large bodies over several processes: M and K stay with those that have them."""
+
+import json
+
+import pytest
+
+from models_of_many_variables import CUBE, SHELLS
+from mpi_runs import mpirun, must, several, sets  # noqa: F401
+from test_solver import largest_difference, sensors
+
+FIXED = CUBE.replace("{spherical:", "{fixed:")
+PULL = "loads: {pull: {force: {on: cube/corner_111, value: [0, 0, 1 kN]}}}\n"
+# What the first process brings of a solid while the model is built: entries of the scalar mass matrix, of 19 nodes along each edge of the cube.
+SCALAR_MASS = 12 * (3 * 19 - 2)**3 + 4 * (19**3 + 1)
+
+
+def modes(result):
+    (report,) = json.loads(result)["analyses"]
+    return [mode["omega_squared"] for mode in report["modes"]], report["work"]
+
+
+ANALYSES = {
+    "subspace": ("cube.yaml", "--method", "subspace"),
+    "penalty": ("cube.yaml", "--method", "penalty", "--condition"),
+    "spectra": ("cube.yaml", "--method", "spectra"),
+    "system": ("fixed.yaml", "--system"),
+    "system in equilibrium": ("fixed.yaml", "--system", "--about", "static"),
+    "shells": ("plate.yaml",),
+}
+
+
+@several
+@pytest.mark.parametrize("name", ANALYSES)
+def test_modes_leave_matrices_where_they_are(buckens, mpirun, tmp_path, name):
+    """The first process receives products and solutions, and no matrix."""
+    for file, text in (("cube", CUBE), ("fixed", FIXED), ("plate", SHELLS)):
+        (tmp_path / f"{file}.yaml").write_text(text)
+    arguments = ("modes", *ANALYSES[name], "--count", 3, "--json")
+    expected, alone = modes(buckens(*arguments).must(0).out)
+    found, work = modes(must(mpirun(2, *arguments)).stdout)
+    assert len(expected) >= 3
+    assert found == pytest.approx(expected, rel=1e-8)
+    assert work["processes"] == 2 and work["bytes"] > 0
+    assert work["bytes_of_whole_matrices"] == 0
+    assert "bytes" not in alone and "processes" not in alone
+
+
+@several
+def test_a_static_path_leaves_matrices_where_they_are(buckens, mpirun, tmp_path):
+    (tmp_path / "cube.yaml").write_text(FIXED + PULL)
+    buckens("static", "cube.yaml", "-o", "one").must(0)
+    must(mpirun(2, "static", "cube.yaml", "-o", "two"))
+    assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < 1e-9
+    summary = json.loads((tmp_path / "two" / "summary.json").read_text())
+    assert summary["measures"]["bytes_of_whole_matrices"] == 0
+
+
+REDUCTIONS = {
+    "craig-bampton": "reduction: {craig-bampton: 4, file: kept.h5}",
+    "free-free": "reduction: {free-free: 4, file: kept.h5}",
+    "quasi-static": "flexibility: quasi-static",
+}
+
+
+@several
+@pytest.mark.parametrize("name", REDUCTIONS)
+def test_reductions_leave_matrices_where_they_are(buckens, mpirun, tmp_path, name):
+    """And what one process has kept of a basis belongs to the same body for two, and the other way round."""
+    text = CUBE.replace("    interfaces:", f"    {REDUCTIONS[name]}\n    interfaces:")
+    for place in ("one", "two"):
+        (tmp_path / place).mkdir()
+        (tmp_path / place / "cube.yaml").write_text(text)
+    buckens("run", "one/cube.yaml", "-o", "one/out").must(0)
+    must(mpirun(2, "run", "two/cube.yaml", "-o", "two/out"))
+    assert largest_difference(sensors(tmp_path / "two" / "out"), sensors(tmp_path / "one" / "out")) < 1e-7
+    summary = json.loads((tmp_path / "two" / "out" / "summary.json").read_text())
+    assert summary["measures"]["bytes_of_whole_matrices"] == SCALAR_MASS
+    if name == "quasi-static":
+        return
+    kept = (tmp_path / "one" / "kept.h5").stat().st_mtime_ns
+    must(mpirun(2, "run", "one/cube.yaml", "-o", "one/again"))
+    buckens("run", "two/cube.yaml", "-o", "two/again").must(0)
+    assert (tmp_path / "one" / "kept.h5").stat().st_mtime_ns == kept
+    for place in ("one", "two"):
+        assert largest_difference(sensors(tmp_path / place / "again"), sensors(tmp_path / place / "out")) < 1e-12
+
+
+def hinged_blocks(side=15):
+    """A deck of two blocks that have one edge in common, about which they turn without strain."""
+    at, lines, elements = {}, [], []
+    corners = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))
+    for shift in (0, side):
+        for i, j, k in ((i, j, k) for k in range(side) for j in range(shift, shift + side) for i in range(shift, shift + side)):
+            elements.append([at.setdefault((i + a, j + b, k + c), len(at) + 1) for a, b, c in corners])
+    lines += [f"GRID,{number},,{0.01 * i:.6f},{0.01 * j:.6f},{0.01 * k:.6f}" for (i, j, k), number in at.items()]
+    lines += [f"CHEXA,{e + 1},1,{','.join(map(str, nodes[:6]))}\n,{nodes[6]},{nodes[7]}" for e, nodes in enumerate(elements)]
+    return "\n".join([*lines, "PSOLID,1,1", "MAT1,1,2.1E11,,0.3,7850.", "ENDDATA", ""])
+
+
+HINGED = """\
+buckens: 1
+bodies: {blocks: {mesh: {file: blocks.bdf, length-unit: m, mass-unit: kg}}}
+joints: {ball: {spherical: {between: [ground, blocks]}}}
+simulation: {duration: 1 ms, step: 0.1 ms}
+"""
+
+
+@several
+def test_a_mesh_that_is_a_mechanism_is_told_by_any_number_of_processes(buckens, mpirun, tmp_path):
+    """Its K + μM is definite by little; a factor that fails for that is taken for what it is."""
+    (tmp_path / "blocks.bdf").write_text(hinged_blocks())
+    (tmp_path / "blocks.yaml").write_text(HINGED)
+    words = "\"blocks\" is a mechanism in itself"
+    buckens("check", "blocks.yaml").must(3, words)
+    assert words in must(mpirun(2, "modes", "blocks.yaml"), 3).stderr
