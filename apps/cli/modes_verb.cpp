@@ -121,7 +121,8 @@ the motion is included. "mass" belongs to the shape scaled to a largest displace
 masses are shares of the total mass.
 
 Methods: subspace (sieved simultaneous inverse iteration), augmented (bordered matrix), penalty,
-spectra (Lanczos), dense; automatic uses dense up to 600 unknowns and subspace above.
+spectra (Lanczos), slepc (Krylov-Schur, of large bodies over several processes), dense; automatic
+uses dense up to 600 unknowns and subspace above, or slepc where it can.
 
 Without -o no files are written. OUT contains results.h5 with the shapes, and modes.json.
 

@@ -11,6 +11,8 @@
 #include "process_memory.h"
 #include "reasons.h"
 
+#include "buckens/linalg/grid_plugin.h"
+
 namespace buckens_petsc {
 
 namespace {
@@ -107,6 +109,7 @@ bool MumpsFactor::run(int job) {
   const int code = mumps_.infog[0];
   if (code >= 0) return true;
   if (is_among(code, kNotDefinite)) {
+    is_indefinite_ = true;
     set_reason(kNegativePivot);
   } else if (is_among(code, kNoMemory) || is_among(code, kNarrow)) {
     set_reason("there is too little memory (MUMPS: INFOG(1) = " + std::to_string(code) +
@@ -252,6 +255,7 @@ bool MumpsFactor::factorise() {
 /// It does not stop at negative pivots, but counts them: INFOG(12).
 bool MumpsFactor::is_positive_definite() {
   if (mumps_.infog[12 - 1] == 0) return true;
+  is_indefinite_ = true;
   set_reason(kNegativePivot);
   return false;
 }

@@ -45,6 +45,8 @@ class MumpsFactor {
 
   /// Those whose right-hand sides and answers are here.
   const std::vector<int>& variables() const { return variables_; }
+  /// Whether make() has found that the matrix is not positive definite, the same on all.
+  bool is_indefinite() const { return is_indefinite_; }
   /// Of all processes, the same on all.
   double entries() const;
 
@@ -68,6 +70,7 @@ class MumpsFactor {
   Workspace workspace_;
   // Until the factor is made: values, rows and columns, and places of the variables, from 1.
   PagesOnDisk pages_;
+  bool is_indefinite_ = false;
   int size_ = 0;
   long entries_ = 0;
   std::vector<int> places_;

@@ -34,8 +34,9 @@ const SolverLibrary* solver_library() {
           : reinterpret_cast<const SolverLibrary* (*)()>(::dlsym(library, "buckens_petsc_solvers"));
   if (find == nullptr) {
     const char* text = ::dlerror();
-    set_reason("the solvers of PETSc cannot be loaded: " + (text == nullptr ? place : text) +
-               "; install the libraries that they need (Debian: libpetsc-real3.18)");
+    set_reason(
+        "the solvers of PETSc cannot be loaded: " + (text == nullptr ? place : text) +
+        "; install the libraries that they need (Debian: libpetsc-real3.18, libslepc-real3.18)");
     return nullptr;
   }
   loaded = find();

@@ -38,6 +38,36 @@ class LoadedSolver {
   virtual bool is_direct() const = 0;
 };
 
+/// M x = θ A x of vectors of which each process has a run of rows, maybe none. All functions are
+/// called by all processes together.
+struct ModeProblem {
+  int first = 0, count = 0;  ///< rows here
+  int wanted = 0;            ///< pairs with the largest θ
+  int basis = 0;             ///< most vectors of a search
+  double tolerance = 0;      ///< of ‖A⁻¹M x − θ x‖_M / θ
+  int num_motions = 0;
+  const double* motions = nullptr;  ///< Φ, rows here, one motion after the other; M-orthonormal
+  std::function<void(const double* x, double* y)> multiply_mass;   ///< y = M x
+  std::function<void(const double* x, double* y)> multiply_inner;  ///< y = A x
+  /// x = A⁻¹ b. @return whether it was possible, the same on all processes
+  std::function<bool(const double* b, double* x)> solve;
+  /// Takes a pair: with θ falling, M-orthonormal, without a share of the motions.
+  std::function<void(int number, double theta, const double* x)> take;
+};
+
+struct ModeSearch {
+  /// After the last two the others may be waiting for this process.
+  enum class End {
+    converged,
+    unconverged,
+    solve_failed,
+    error,
+    out_of_memory
+  } end = End::converged;
+  int found = 0, restarts = 0;
+  long solves = 0;
+};
+
 /// What the library of PETSc's solvers exports.
 ///
 /// It is apart since PETSc brings some eighty other libraries along, which take 20 MB of each
@@ -47,6 +77,8 @@ struct SolverLibrary {
   /// @param comm null: this process alone, whose arrays are used in place, else copied
   /// @return null after an error
   LoadedSolver* (*make)(const MPI_Comm* comm, const Rows& rows, std::string& reason);
+  /// Finds modes by SLEPc.
+  ModeSearch (*find_modes)(MPI_Comm comm, const ModeProblem& problem, std::string& reason);
   /// Ends PETSc if it was begun, before MPI ends.
   void (*end)();
 };

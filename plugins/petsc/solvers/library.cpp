@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "modes.h"
 #include "solver.h"
 
 namespace buckens_petsc {
@@ -46,7 +47,17 @@ LoadedSolver* make(const MPI_Comm* comm, const Rows& rows, std::string& reason) 
   return solver->make(comm, rows, reason) ? solver.release() : nullptr;
 }
 
-const SolverLibrary library = {make, end_petsc};
+ModeSearch find_modes(MPI_Comm comm, const ModeProblem& problem, std::string& reason) {
+  ModeSearch out;
+  const KeptErrors errors;
+  const PetscErrorCode failure = search_modes(comm, problem, out);
+  if (failure == 0 || out.end == ModeSearch::End::solve_failed) return out;
+  out.end = failure == PETSC_ERR_MEM ? ModeSearch::End::out_of_memory : ModeSearch::End::error;
+  reason = take_error();
+  return out;
+}
+
+const SolverLibrary library = {make, find_modes, end_petsc};
 
 }  // namespace
 

@@ -275,20 +275,6 @@ double bytes_of(const Solver& solver) {
   return 0;
 }
 
-PetscErrorCode start_petsc() {
-  PetscBool is_running = PETSC_FALSE;
-  PetscFunctionBeginUser;
-  PetscCall(PetscInitialized(&is_running));
-  if (!is_running) {
-    // Interrupts and crashes are the program's business, not PETSc's.
-    PetscCall(PetscOptionsSetValue(nullptr, "-no_signal_handler", nullptr));
-    PetscCall(PetscInitializeNoArguments());
-  }
-  PetscFunctionReturn(0);
-}
-
-void end_petsc() { (void)PetscFinalize(); }
-
 KeptErrors::KeptErrors() {
   reason.clear();
   (void)PetscPushErrorHandler(note_error, nullptr);

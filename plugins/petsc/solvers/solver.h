@@ -37,6 +37,8 @@ double bytes_of(const Solver& solver);
 
 /// Begins PETSc in this process, which handles signals itself.
 PetscErrorCode start_petsc();
+/// Begins SLEPc, and PETSc if need be.
+PetscErrorCode start_slepc();
 void end_petsc();
 
 /// While it lives, errors of PETSc are kept instead of printed.

@@ -10,7 +10,9 @@
 #include "buckens/body/dense_free_modes.h"
 #include "buckens/body/iterated_modes.h"
 #include "buckens/body/mesh_solver.h"
+#include "buckens/body/shared_free_modes.h"
 #include "buckens/body/shift_estimate.h"
+#include "buckens/linalg/ranks.h"
 #include "buckens/linalg/tall_products.h"
 
 namespace buckens::body {
@@ -20,16 +22,37 @@ using linalg::Vector;
 
 namespace {
 
+constexpr Eigen::Index kFewModes = 8;
+
 /// μ somewhat below the estimate, which is an upper bound.
 double first_shift(const FlexiblePart& part) {
   const double bound = lowest_square_estimate(part);
   return bound > 0.0 ? 0.3 * bound : cautious_shift(part.fe.M, part.fe.K);
 }
 
-IteratedModes iterate(const FlexiblePart& part, const FreeModesSettings& settings, int count) {
+bool has_shared_factor(const FlexiblePart& part) {
+  if (!linalg::is_shared_work(part.num_dofs())) return false;
+  linalg::MatrixSum sum;
+  sum.add(1.0, part.fe.K);
+  sum.add(1.0, part.fe.M);
+  return !decide_solver(part.solver, sum).iterates;
+}
+
+/// @throws ModelError if the method needs other processes and there are none for this body
+void require_shared_factor(const FlexiblePart& part) {
+  if (has_shared_factor(part)) return;
+  throw ModelError(
+      fmt::format("method slepc: no processes share the factor of this body of {} variables; start "
+                  "several with mpirun, for a large body without an iterative solver, or use the "
+                  "method subspace",
+                  part.num_dofs()));
+}
+
+IteratedModes iterate(const FlexiblePart& part, FreeModeMethod method,
+                      const FreeModesSettings& settings, int count) {
   const linalg::SymmetricMatrix& M = part.fe.M;
   const linalg::SymmetricMatrix& K = part.fe.K;
-  switch (settings.method) {
+  switch (method) {
     case FreeModeMethod::augmented:
       return iterate_modes(M, part.sieve, augmented_operator(K, part.sieve), count,
                            settings.tolerance);
@@ -47,6 +70,8 @@ IteratedModes iterate(const FlexiblePart& part, const FreeModesSettings& setting
       out.factorisations = probe.factorisations;
       return out;
     }
+    case FreeModeMethod::slepc:
+      return shared_free_modes(M, K, part.sieve, first_shift(part), count, settings.tolerance);
     default:
       return iterate_with_shift(M, K, part.sieve, first_shift(part), count, settings.tolerance,
                                 solver_of(part));
@@ -68,24 +93,40 @@ FreeFreeModes solve_dense(const FlexiblePart& part) {
   return out;
 }
 
-void judge(const FlexiblePart& part, const ModeOperator& op, FreeFreeModes& out) {
+/// Residuals and errors of some of the modes.
+void judge(const FlexiblePart& part, const ModeOperator& op, Eigen::Index first, Eigen::Index count,
+           FreeFreeModes& out) {
   TaskPool* pool = op.pool.get();
+  const Matrix shapes = out.shapes.middleCols(first, count);
   const Vector scale = variable_scale(part.fe.M, part.fe.K);
-  const Matrix Mphi = linalg::symmetric_product(part.fe.M, out.shapes, pool);
-  const Vector squares = out.omega.cwiseAbs2();
+  const Matrix Mphi = linalg::symmetric_product(part.fe.M, shapes, pool);
+  const Vector squares = out.omega.segment(first, count).cwiseAbs2();
   const Matrix inertia = Mphi * squares.asDiagonal();
-  const Matrix left = linalg::symmetric_product(part.fe.K, out.shapes, pool) - inertia;
-  out.residual = (scale.asDiagonal() * left)
-                     .colwise()
-                     .norm()
-                     .cwiseQuotient((scale.asDiagonal() * inertia).colwise().norm())
-                     .transpose();
+  const Matrix left = linalg::symmetric_product(part.fe.K, shapes, pool) - inertia;
+  out.residual.segment(first, count) =
+      (scale.asDiagonal() * left)
+          .colwise()
+          .norm()
+          .cwiseQuotient((scale.asDiagonal() * inertia).colwise().norm())
+          .transpose();
   Matrix image = Mphi;
   op.inverse(image);
   out.solves += image.cols();
-  image = out.shapes - image * (squares.array() + op.shift).matrix().asDiagonal();
+  image = shapes - image * (squares.array() + op.shift).matrix().asDiagonal();
   const Matrix of_image = linalg::symmetric_product(part.fe.M, image, pool);
-  out.error = image.cwiseProduct(of_image).colwise().sum().cwiseMax(0.0).cwiseSqrt();
+  out.error.segment(first, count) =
+      image.cwiseProduct(of_image).colwise().sum().cwiseMax(0.0).cwiseSqrt();
+}
+
+/// A process that has nothing else of so large a body takes few vectors at a time.
+void judge(const FlexiblePart& part, const ModeOperator& op, FreeFreeModes& out) {
+  const Eigen::Index count = out.omega.size();
+  const Eigen::Index most = out.method == FreeModeMethod::slepc ? kFewModes : count;
+  out.residual.resize(count);
+  out.error.resize(count);
+  for (Eigen::Index first = 0; first < count; first += most) {
+    judge(part, op, first, std::min(most, count - first), out);
+  }
 }
 
 }  // namespace
@@ -101,8 +142,13 @@ FreeFreeModes free_free_modes(const FlexiblePart& part, const FreeModesSettings&
   out.method = settings.method;
   if (out.method == FreeModeMethod::automatic) {
     refuse_too_many_modes(part.num_dofs(), wanted);
-    out.method =
-        is_dense_better(part.num_dofs(), wanted) ? FreeModeMethod::dense : FreeModeMethod::subspace;
+    if (is_dense_better(part.num_dofs(), wanted)) {
+      out.method = FreeModeMethod::dense;
+    } else {
+      out.method = has_shared_factor(part) ? FreeModeMethod::slepc : FreeModeMethod::subspace;
+    }
+  } else if (out.method == FreeModeMethod::slepc) {
+    require_shared_factor(part);
   }
   if (wanted == 0) {
     out.shapes.resize(part.num_dofs(), 0);
@@ -118,7 +164,7 @@ FreeFreeModes free_free_modes(const FlexiblePart& part, const FreeModesSettings&
     out.omega = out.omega.head(found).eval();
     out.shapes = out.shapes.leftCols(found).eval();
   } else {
-    IteratedModes iterated = iterate(part, settings, static_cast<int>(wanted));
+    IteratedModes iterated = iterate(part, out.method, settings, static_cast<int>(wanted));
     static_cast<FreeModes&>(out) = std::move(iterated.modes);
     op = std::move(iterated.op);
     out.shift = op.shift;

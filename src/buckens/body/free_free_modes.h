@@ -11,7 +11,7 @@ namespace buckens::body {
 
 /// How the elastic vibrations of a free body are computed; all methods give the same result.
 enum class FreeModeMethod {
-  /// `subspace` for large bodies, dense for small ones.
+  /// `subspace` for large bodies, `slepc` if several processes share them, dense for small ones.
   automatic,
   /// Sieved simultaneous inverse iteration with subspace projection on K + μM, FM (30), (31).
   subspace,
@@ -21,12 +21,14 @@ enum class FreeModeMethod {
   penalty,
   /// Lanczos of the Spectra library on Y (K + μM)⁻¹M.
   spectra,
+  /// Krylov–Schur of SLEPc on the same, by the processes of a run that share a large body.
+  slepc,
   /// Dense eigenproblem on {d : Pᵀd = 0}.
   dense
 };
 
-constexpr std::array<const char*, 6> choice_names(FreeModeMethod) {
-  return {"automatic", "subspace", "augmented", "penalty", "spectra", "dense"};
+constexpr std::array<const char*, 7> choice_names(FreeModeMethod) {
+  return {"automatic", "subspace", "augmented", "penalty", "spectra", "slepc", "dense"};
 }
 std::string to_string(FreeModeMethod method);
 
