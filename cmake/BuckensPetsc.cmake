@@ -9,6 +9,7 @@ if(BUCKENS_MPI AND NOT MPIEXEC_EXECUTABLE)
   message(FATAL_ERROR "BUCKENS_MPI: there is no mpirun; install openmpi-bin, or switch the option off")
 endif()
 pkg_check_modules(petsc REQUIRED IMPORTED_TARGET petsc>=3.18)
+pkg_check_modules(slepc REQUIRED IMPORTED_TARGET slepc>=3.18)
 
 # PETSc itself is in a library that the plug-in loads when one of its solvers is asked for: with what it brings along, it takes memory in each process.
 function(add_buckens_plugin name)
@@ -22,11 +23,17 @@ function(add_buckens_plugin name)
 endfunction()
 
 add_buckens_plugin(buckens_petsc_solvers "${PROJECT_SOURCE_DIR}/plugins/petsc/solvers/*.cpp")
-target_link_libraries(buckens_petsc_solvers PRIVATE PkgConfig::petsc)
+target_link_libraries(buckens_petsc_solvers PRIVATE PkgConfig::slepc PkgConfig::petsc)
 
 add_buckens_plugin(buckens_petsc "${PROJECT_SOURCE_DIR}/plugins/petsc/*.cpp")
 find_path(mumps_headers dmumps_c.h REQUIRED)
 find_library(mumps_library dmumps REQUIRED)
-target_include_directories(buckens_petsc SYSTEM PRIVATE ${mumps_headers} ${petsc_INCLUDE_DIRS})
-target_link_libraries(buckens_petsc PRIVATE ${mumps_library} ${CMAKE_DL_LIBS})
+find_path(ptscotch_headers ptscotch.h PATH_SUFFIXES scotch REQUIRED)
+find_library(ptscotch_library ptscotch REQUIRED)
+find_library(scotch_library scotch REQUIRED)
+find_library(ptscotch_errors ptscotcherr REQUIRED)
+target_include_directories(buckens_petsc SYSTEM PRIVATE ${mumps_headers} ${ptscotch_headers}
+                                                        ${petsc_INCLUDE_DIRS})
+target_link_libraries(buckens_petsc PRIVATE ${mumps_library} ${ptscotch_library} ${scotch_library}
+                                            ${ptscotch_errors} ${CMAKE_DL_LIBS})
 add_dependencies(buckens_petsc buckens_petsc_solvers)

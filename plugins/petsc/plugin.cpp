@@ -112,10 +112,10 @@ int number_of(char* error, int error_size, Make&& make) {
   return number;
 }
 
-int plugin_divide(int size, const BuckensGridColumns* all, BuckensGridFacts* facts, char* error,
-                  int error_size) {
+int plugin_divide(int size, const BuckensGridRows* of, const BuckensGridColumns* all,
+                  BuckensGridFacts* facts, char* error, int error_size) {
   return number_of(error, error_size,
-                   [&](Ranks& all_of_them) { return all_of_them.divide(size, *all, *facts); });
+                   [&](Ranks& all_of_them) { return all_of_them.divide(size, *of, *all, *facts); });
 }
 
 int plugin_divide_rows(int rows, int columns, const BuckensGridColumns* all, char* error,
@@ -131,16 +131,17 @@ int plugin_make_rows(int rows, int columns, const BuckensGridDescription* of, ch
                    [&](Ranks& all_of_them) { return all_of_them.make_rows(rows, columns, *of); });
 }
 
-int plugin_make_columns(int size, const BuckensGridDescription* of, BuckensGridFacts* facts,
-                        char* error, int error_size) {
-  return number_of(error, error_size,
-                   [&](Ranks& all_of_them) { return all_of_them.make_columns(size, *of, *facts); });
+int plugin_make_columns(int size, const BuckensGridRows* rows, const BuckensGridDescription* of,
+                        BuckensGridFacts* facts, char* error, int error_size) {
+  return number_of(error, error_size, [&](Ranks& all_of_them) {
+    return all_of_them.make_columns(size, *rows, *of, *facts);
+  });
 }
 
-int plugin_add_up(int count, const int* terms, const double* weights, BuckensGridFacts* facts,
-                  char* error, int error_size) {
+int plugin_add_up(int count, const int* terms, const double* weights, const BuckensGridRows* rows,
+                  BuckensGridFacts* facts, char* error, int error_size) {
   return number_of(error, error_size, [&](Ranks& all_of_them) {
-    return all_of_them.add_up(count, terms, weights, *facts);
+    return all_of_them.add_up(count, terms, weights, *rows, *facts);
   });
 }
 
@@ -184,9 +185,10 @@ void plugin_forget(int matrix) {
   if (ranks() != nullptr) ranks()->forget(matrix);
 }
 
-int plugin_make_pairs(int rows, int most, char* error, int error_size) {
+int plugin_make_pairs(int size, const BuckensGridRows* rows, int most, char* error,
+                      int error_size) {
   return number_of(error, error_size,
-                   [&](Ranks& all_of_them) { return all_of_them.make_pairs(rows, most); });
+                   [&](Ranks& all_of_them) { return all_of_them.make_pairs(size, *rows, most); });
 }
 
 double plugin_project(int number, int pairs, float* r, float* along) {
@@ -207,9 +209,10 @@ void plugin_take_pair(int number, int pair, float* load, float* answer) {
 
 void plugin_runs(int size, int* first) { ranks()->runs(size, first); }
 
-int plugin_begin_rows(int size, const BuckensGridDescription* of, char* error, int error_size) {
+int plugin_begin_rows(int size, const BuckensGridRows* rows, const BuckensGridDescription* of,
+                      char* error, int error_size) {
   return number_of(error, error_size,
-                   [&](Ranks& all_of_them) { return all_of_them.begin_rows(size, *of); });
+                   [&](Ranks& all_of_them) { return all_of_them.begin_rows(size, *rows, *of); });
 }
 
 int plugin_work_rows(const void* program, long count, int sums_each, double* sums, char* error,
@@ -230,6 +233,15 @@ int plugin_solve_rows(void* solver, int number, int b, int x, char* error, int e
   return ranks()->solve_rows(of_solver, number, b, x) ? 0 : fail(error, error_size);
 }
 
+int plugin_partition(const BuckensGridMesh* mesh, int* part, char* error, int error_size) {
+  return ranks()->partition(*mesh, part) ? 0 : fail(error, error_size);
+}
+
+int plugin_find_modes(void* solver, BuckensGridModes* modes, char* error, int error_size) {
+  const int of_solver = static_cast<Handle*>(solver)->number;
+  return ranks()->find_modes(of_solver, *modes) ? 0 : fail(error, error_size);
+}
+
 const BuckensGridPlugin plugin = {
     kBuckensGridVersion,  plugin_name,         plugin_make,          plugin_solve,
     plugin_bytes,         plugin_release,      plugin_join,          plugin_serve,
@@ -239,7 +251,7 @@ const BuckensGridPlugin plugin = {
     plugin_edges,         plugin_gather,       plugin_forget,        plugin_make_pairs,
     plugin_project,       plugin_combine,      plugin_put_pair,      plugin_take_pair,
     plugin_runs,          plugin_begin_rows,   plugin_work_rows,     plugin_put_rows,
-    plugin_take_rows,     plugin_solve_rows};
+    plugin_take_rows,     plugin_solve_rows,   plugin_partition,     plugin_find_modes};
 
 }  // namespace
 

@@ -62,12 +62,13 @@ void Ranks::give(Task task, int number) {
   give(order);
 }
 
-Ranks::Order Ranks::give_new(Task task, int rows, int columns) {
+Ranks::Order Ranks::give_new(Task task, int rows, int columns, const BuckensGridRows* of) {
   Order order;
   order.task = task;
   order.number = next_++;
   order.size = rows;
   order.columns = columns;
+  order.gives_rows = of != nullptr && of->first != nullptr ? 1 : 0;
   give(order);
   return order;
 }
@@ -124,6 +125,7 @@ void Ranks::serve(const BuckensGridMaker& maker) {
       case Task::edges:
       case Task::multiply:
       case Task::gather:
+      case Task::partition:
         serve_matrices(order);
         break;
       case Task::forget:
@@ -134,6 +136,7 @@ void Ranks::serve(const BuckensGridMaker& maker) {
       case Task::put_rows:
       case Task::take_rows:
       case Task::solve_rows:
+      case Task::find_modes:
         serve_rows(order);
         break;
       case Task::make_pairs:
@@ -144,28 +147,26 @@ void Ranks::serve(const BuckensGridMaker& maker) {
         serve_pairs(order);
         break;
       case Task::leave:
-        shared_->parts.clear();
-        end_solver_library();
-        MPI_Finalize();
+        end_here();
         return;
     }
   }
 }
 
-/// Orders about matrices that the first process does not have.
+/// Orders about matrices that the first process does not have, and about meshes of which they are.
 void Ranks::serve_matrices(const Order& order) {
   BuckensGridFacts facts{};
   switch (order.task) {
     case Task::divide:
     case Task::divide_rows:
-      (void)divide_together(order, nullptr, facts);
+      (void)divide_together(order, nullptr, nullptr, facts);
       break;
     case Task::make_rows:
     case Task::make_columns:
-      (void)make_columns_together(order, nullptr, facts);
+      (void)make_columns_together(order, nullptr, nullptr, facts);
       break;
     case Task::add_up:
-      (void)add_up_together(order, nullptr, facts);
+      (void)add_up_together(order, nullptr, nullptr, facts);
       break;
     case Task::inner_product:
       (void)inner_product_together(order, nullptr, nullptr);
@@ -185,6 +186,9 @@ void Ranks::serve_matrices(const Order& order) {
     case Task::multiply:
       multiply_together(order, nullptr, nullptr);
       break;
+    case Task::partition:
+      (void)partition_together(order, nullptr, nullptr);
+      break;
     default:
       gather_together(order, nullptr, nullptr, nullptr);
   }
@@ -196,11 +200,15 @@ void Ranks::forget_here(int number) {
   shared_->forget(number);
 }
 
-void Ranks::leave() {
-  give(Task::leave);
+void Ranks::end_here() {
   shared_->parts.clear();
   end_solver_library();
   MPI_Finalize();
+}
+
+void Ranks::leave() {
+  give(Task::leave);
+  end_here();
   count_ = 1;  // there is nobody left to share with
 }
 

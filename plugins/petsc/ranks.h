@@ -13,6 +13,9 @@ namespace buckens_petsc {
 
 enum class Task : int;
 class MumpsFactor;
+struct SomeElements;
+struct MeshShare;
+struct ModeProblem;
 
 /// The processes that mpirun started, of which the first simulates and the others serve its solves:
 /// they hold runs of rows of each matrix and of its factor, and wait for work.
@@ -42,11 +45,14 @@ class Ranks {
   double bytes(int number);
   void release(int number);
   /// Of the first: gives a matrix to the others. @return its number, −1 as make()
-  int divide(int size, const BuckensGridColumns& all, BuckensGridFacts& facts);
+  int divide(int size, const BuckensGridRows& of, const BuckensGridColumns& all,
+             BuckensGridFacts& facts);
   /// The same of one that the others make.
-  int make_columns(int size, const BuckensGridDescription& of, BuckensGridFacts& facts);
+  int make_columns(int size, const BuckensGridRows& rows, const BuckensGridDescription& of,
+                   BuckensGridFacts& facts);
   /// The same of a sum of such matrices.
-  int add_up(int count, const int* terms, const double* weights, BuckensGridFacts& facts);
+  int add_up(int count, const int* terms, const double* weights, const BuckensGridRows& rows,
+             BuckensGridFacts& facts);
   /// The same of a matrix of any shape, given by rows.
   int divide_rows(int rows, int columns, const BuckensGridColumns& all);
   /// The same of one whose rows the others make.
@@ -64,7 +70,7 @@ class Ranks {
   void gather(int matrix, int* starts, int* rows, double* values);
   void forget(int matrix);
   /// Of the first: room for pairs of vectors of so many rows. @return its number, −1 as make()
-  int make_pairs(int rows, int most);
+  int make_pairs(int size, const BuckensGridRows& rows, int most);
   /// @return ‖r‖²
   double project(int number, int pairs, float* r, float* along);
   void combine(int number, int pairs, const float* weights, float* sum);
@@ -73,11 +79,14 @@ class Ranks {
   /// First rows of the others, and the end.
   void runs(int size, int* first) const;
   /// Of the first: see BuckensGridPlugin.
-  int begin_rows(int size, const BuckensGridDescription& of);
+  int begin_rows(int size, const BuckensGridRows& rows, const BuckensGridDescription& of);
   bool work_rows(const void* program, long count, int sums_each, double* sums);
   bool put_rows(int number, int vector, const double* values);
   void take_rows(int number, int vector, double* values);
   bool solve_rows(int solver, int number, int b, int x);
+  /// Of the first: see BuckensGridPlugin.
+  bool partition(const BuckensGridMesh& mesh, int* part);
+  bool find_modes(int solver, BuckensGridModes& modes);
   /// Of the first: so far.
   BuckensGridTraffic traffic() const { return traffic_; }
 
@@ -92,10 +101,12 @@ class Ranks {
   struct Runs;
 
   Ranks();
+  void end_here();
   void give(const Order& order);
   void give(Task task, int number = 0);
   /// Gives an order to make something new, and returns it with its number.
-  Order give_new(Task task, int rows, int columns = 0);
+  /// @param of which rows the others have; null: runs of equal length
+  Order give_new(Task task, int rows, int columns = 0, const BuckensGridRows* of = nullptr);
   Order wait_for_order();
   void count_messages(int messages, double bytes_each);
   template <class T>
@@ -109,16 +120,22 @@ class Ranks {
   void find_places(int size, Part& part);
   bool sum_terms(const Order& order, const double* of_terms, OwnRows& own);
   std::vector<const Divided*> terms_of(const Order& order) const;
-  std::unique_ptr<Divided> empty_division(const Order& order) const;
-  bool divide_together(const Order& order, const BuckensGridColumns* all, BuckensGridFacts& facts);
-  bool make_columns_together(const Order& order, const BuckensGridDescription* of,
-                             BuckensGridFacts& facts);
+  std::vector<int> agreed_runs(const Order& order, const BuckensGridRows* of);
+  std::unique_ptr<Divided> empty_division(const Order& order, const BuckensGridRows* of);
+  bool agree_on_variables(const Order& order, const BuckensGridRows* of, const Divided& matrix,
+                          std::vector<int>& own);
+  bool divide_together(const Order& order, const BuckensGridRows* of, const BuckensGridColumns* all,
+                       BuckensGridFacts& facts);
+  bool make_columns_together(const Order& order, const BuckensGridRows* rows,
+                             const BuckensGridDescription* of, BuckensGridFacts& facts);
   bool send_descriptions(const std::vector<int>& first, const BuckensGridDescription& of);
   bool receive_description(std::vector<char>& description);
   bool make_columns_of(const std::vector<char>& description, Divided& matrix);
-  bool add_up_together(const Order& order, const double* weights, BuckensGridFacts& facts);
-  bool keep(const Order& order, std::unique_ptr<Divided> matrix, BuckensGridFacts& facts);
-  void sum_facts(const Divided& matrix, BuckensGridFacts& facts);
+  bool add_up_together(const Order& order, const double* weights, const BuckensGridRows* of,
+                       BuckensGridFacts& facts);
+  bool keep(const Order& order, const BuckensGridRows* of, std::unique_ptr<Divided> matrix,
+            BuckensGridFacts& facts);
+  void sum_facts(const Divided& matrix, const std::vector<int>& variables, BuckensGridFacts& facts);
   double inner_product_together(const Order& order, const double* a, const double* b);
   void diagonal_together(const Order& order, double* values);
   void near_diagonal_together(const Order& order, const int* lengths, double* values);
@@ -139,7 +156,7 @@ class Ranks {
   void serve_matrices(const Order& order);
   void give_pairs(Task task, int number, int count);
   void serve_pairs(const Order& order);
-  bool make_pairs_together(const Order& order);
+  bool make_pairs_together(const Order& order, const BuckensGridRows* of);
   void scatter(const Pairs& pairs, const float* whole, float* here);
   void gather(const Pairs& pairs, const float* here, float* whole);
   void sum_in_order(std::vector<double>& values);
@@ -149,13 +166,23 @@ class Ranks {
   void take_pair_together(Pairs& own, int pair, float* load, float* answer);
   void forget_here(int number);
   void serve_rows(const Order& order);
-  void add_runs(const Order& order);
-  bool begin_rows_together(const Order& order, const BuckensGridDescription* of);
+  bool begin_rows_together(const Order& order, const BuckensGridRows* rows,
+                           const BuckensGridDescription* of);
   bool work_rows_together(const Order& order, const void* program, double* sums);
   bool receive_sums(std::size_t each, double* sums);
   bool put_rows_together(const Order& order, const double* values);
   void take_rows_together(const Order& order, double* values);
   bool solve_rows_together(const Order& order);
+  bool partition_together(const Order& order, const BuckensGridMesh* mesh, int* part);
+  bool send_mesh(const BuckensGridMesh& mesh, const std::vector<int>& first);
+  bool receive_mesh(int nodes, SomeElements& elements, MeshShare& own);
+  bool share_mesh(const std::vector<int>& first, const SomeElements& elements, MeshShare& own);
+  bool find_modes_together(const Order& order, BuckensGridModes* modes);
+  bool has_room_for_modes(const Order& order, const BuckensGridModes& modes);
+  std::vector<double> share_motions(const Divided& M, const BuckensGridModes& modes,
+                                    const double* all);
+  void describe_modes(const Order& order, const BuckensGridModes& modes, Way& way,
+                      std::vector<double>& inertia, ModeProblem& problem);
   void multiply_among_others(int matrix, const double* x, double* y);
   static void exchange_numbers(void* context, const int* out_counts, const double* out,
                                const int* in_counts, double* in);

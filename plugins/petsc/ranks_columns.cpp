@@ -9,21 +9,22 @@
 
 namespace buckens_petsc {
 
-int Ranks::make_columns(int size, const BuckensGridDescription& of, BuckensGridFacts& facts) {
-  const Order order = give_new(Task::make_columns, size);
-  return make_columns_together(order, &of, facts) ? order.number : -1;
+int Ranks::make_columns(int size, const BuckensGridRows& rows, const BuckensGridDescription& of,
+                        BuckensGridFacts& facts) {
+  const Order order = give_new(Task::make_columns, size, 0, &rows);
+  return make_columns_together(order, &rows, &of, facts) ? order.number : -1;
 }
 
 int Ranks::make_rows(int rows, int columns, const BuckensGridDescription& of) {
   const Order order = give_new(Task::make_rows, rows, columns);
   BuckensGridFacts facts{};
-  return make_columns_together(order, &of, facts) ? order.number : -1;
+  return make_columns_together(order, nullptr, &of, facts) ? order.number : -1;
 }
 
 /// A process makes its columns while the first describes those of the next.
-bool Ranks::make_columns_together(const Order& order, const BuckensGridDescription* of,
-                                  BuckensGridFacts& facts) {
-  std::unique_ptr<Divided> matrix = empty_division(order);
+bool Ranks::make_columns_together(const Order& order, const BuckensGridRows* rows,
+                                  const BuckensGridDescription* of, BuckensGridFacts& facts) {
+  std::unique_ptr<Divided> matrix = empty_division(order, rows);
   bool is_made = false;
   if (of != nullptr) {
     is_made = send_descriptions(matrix->first, *of);
@@ -32,7 +33,7 @@ bool Ranks::make_columns_together(const Order& order, const BuckensGridDescripti
     is_made = receive_description(description) && make_columns_of(description, *matrix);
   }
   if (has_failed_somewhere(!is_made)) return false;
-  const bool is_kept = keep(order, std::move(matrix), facts);
+  const bool is_kept = keep(order, rows, std::move(matrix), facts);
   give_memory_back();  // of elements and of what they add
   return is_kept;
 }
@@ -83,14 +84,13 @@ bool Ranks::make_columns_of(const std::vector<char>& description, Divided& matri
   return has_room;
 }
 
-/// Of a matrix whose rows are numbers of variables.
-void Ranks::sum_facts(const Divided& matrix, BuckensGridFacts& facts) {
-  const int first = matrix.first[rank_];
+void Ranks::sum_facts(const Divided& matrix, const std::vector<int>& variables,
+                      BuckensGridFacts& facts) {
   BuckensGridFacts own{};
   for (int k = 0; k < matrix.count(); ++k) {
     double squares = 0;
     for (int e = matrix.starts[k]; e < matrix.starts[k + 1]; ++e) {
-      const int times = matrix.rows[e] == first + k ? 1 : 2;
+      const int times = matrix.rows[e] == k ? 1 : 2;
       own.entries += times;
       squares += times * matrix.values[e] * matrix.values[e];
     }
@@ -99,7 +99,7 @@ void Ranks::sum_facts(const Divided& matrix, BuckensGridFacts& facts) {
   if (rank_ != 0) {
     const BuckensGridColumns columns{matrix.starts.data(), matrix.rows.data(),
                                      matrix.values.data()};
-    maker_.add_content(first, first + matrix.count(), &columns, own.content);
+    maker_.add_content(matrix.count(), &columns, variables.data(), own.content);
   }
   std::vector<BuckensGridFacts> all(static_cast<std::size_t>(count_));
   MPI_Gather(&own, sizeof own, MPI_BYTE, all.data(), sizeof own, MPI_BYTE, 0, work_);

@@ -64,26 +64,57 @@ std::vector<T> sent_entries(const BuckensGridColumns& all, bool is_symmetric, in
 
 }  // namespace
 
-int Ranks::divide(int size, const BuckensGridColumns& all, BuckensGridFacts& facts) {
+int Ranks::divide(int size, const BuckensGridRows& of, const BuckensGridColumns& all,
+                  BuckensGridFacts& facts) {
   if (!has_entries_of_both_triangles(size, all)) {
     set_reason("it has entries on one side of the diagonal that are not on the other");
     return -1;
   }
-  const Order order = give_new(Task::divide, size);
-  return divide_together(order, &all, facts) ? order.number : -1;
+  const Order order = give_new(Task::divide, size, 0, &of);
+  return divide_together(order, &of, &all, facts) ? order.number : -1;
 }
 
 int Ranks::divide_rows(int rows, int columns, const BuckensGridColumns& all) {
   const Order order = give_new(Task::divide_rows, rows, columns);
   BuckensGridFacts facts{};
-  return divide_together(order, &all, facts) ? order.number : -1;
+  return divide_together(order, nullptr, &all, facts) ? order.number : -1;
 }
 
-std::unique_ptr<Ranks::Divided> Ranks::empty_division(const Order& order) const {
+/// Of all: the first rows of the processes, of which the first has none, and the end.
+std::vector<int> Ranks::agreed_runs(const Order& order, const BuckensGridRows* of) {
+  std::vector<int> first = runs_of_others(order.size, count_);
+  if (order.gives_rows == 0) return first;
+  if (of != nullptr) std::copy_n(of->first, count_, first.begin() + 1);
+  MPI_Bcast(first.data(), count_ + 1, MPI_INT, 0, work_);
+  count_messages(count_ - 1, sizeof(int) * static_cast<double>(count_ + 1));
+  return first;
+}
+
+/// Of all: which variables those of `matrix.variables` are.
+/// @return whether there is memory for their numbers
+bool Ranks::agree_on_variables(const Order& order, const BuckensGridRows* of, const Divided& matrix,
+                               std::vector<int>& own) {
+  std::vector<int> all;
+  const bool has_room = has_memory_for([&] {
+    own = matrix.variables;
+    if (order.gives_rows == 0 || of == nullptr) return;
+    for (const int row : matrix.lists) all.push_back(of->variables[row]);
+  });
+  if (has_failed_somewhere(!has_room)) return false;
+  if (order.gives_rows == 0) return true;
+  MPI_Scatterv(all.data(), matrix.list_counts.data(), matrix.list_first.data(), MPI_INT, own.data(),
+               rank_ == 0 ? 0 : static_cast<int>(own.size()), MPI_INT, 0, work_);
+  count_messages(count_ - 1, 0);
+  traffic_.bytes += sizeof(int) * static_cast<double>(all.size());
+  return true;
+}
+
+std::unique_ptr<Ranks::Divided> Ranks::empty_division(const Order& order,
+                                                      const BuckensGridRows* of) {
   auto matrix = std::make_unique<Divided>();
   matrix->size = order.size;
   matrix->is_symmetric = order.task != Task::divide_rows && order.task != Task::make_rows;
-  matrix->first = runs_of_others(order.size, count_);
+  matrix->first = agreed_runs(order, of);
   for (int k = 0; k < count_; ++k) {
     matrix->counts.push_back(matrix->first[k + 1] - matrix->first[k]);
   }
@@ -91,9 +122,9 @@ std::unique_ptr<Ranks::Divided> Ranks::empty_division(const Order& order) const 
   return matrix;
 }
 
-bool Ranks::divide_together(const Order& order, const BuckensGridColumns* all,
-                            BuckensGridFacts& facts) {
-  std::unique_ptr<Divided> matrix = empty_division(order);
+bool Ranks::divide_together(const Order& order, const BuckensGridRows* of,
+                            const BuckensGridColumns* all, BuckensGridFacts& facts) {
+  std::unique_ptr<Divided> matrix = empty_division(order, of);
   std::vector<int> entries(static_cast<std::size_t>(count_), 0);
   for (int k = 0; k < count_ && all != nullptr; ++k) {
     visit_sent(*all, matrix->is_symmetric, matrix->first[k], matrix->first[k + 1],
@@ -109,12 +140,12 @@ bool Ranks::divide_together(const Order& order, const BuckensGridColumns* all,
   });
   if (has_failed_somewhere(!has_room)) return false;
   exchange_columns(all, *matrix);
-  return keep(order, std::move(matrix), facts);
+  return keep(order, of, std::move(matrix), facts);
 }
 
 /// Of a matrix whose rows are numbers of variables: what all know of it, and their places.
-bool Ranks::keep(const Order& order, std::unique_ptr<Divided> matrix, BuckensGridFacts& facts) {
-  if (matrix->is_symmetric) sum_facts(*matrix, facts);
+bool Ranks::keep(const Order& order, const BuckensGridRows* of, std::unique_ptr<Divided> matrix,
+                 BuckensGridFacts& facts) {
   const bool is_listed = has_memory_for([&] {
     const bool lists_own = matrix->is_symmetric;
     list_rows(lists_own ? order.size : order.columns, lists_own ? matrix->first[rank_] : 0,
@@ -122,6 +153,11 @@ bool Ranks::keep(const Order& order, std::unique_ptr<Divided> matrix, BuckensGri
   });
   if (has_failed_somewhere(!is_listed)) return false;
   exchange_lists(*matrix);
+  if (matrix->is_symmetric) {
+    std::vector<int> variables;
+    if (!agree_on_variables(order, of, *matrix, variables)) return false;
+    sum_facts(*matrix, variables, facts);
+  }
   shared_->matrices[order.number] = std::move(matrix);
   return true;
 }

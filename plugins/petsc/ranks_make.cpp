@@ -142,6 +142,9 @@ bool Ranks::factorise_together(const Order& order, const BuckensGridMatrix* matr
   own = {};
   if (matrix != nullptr && matrix->give != nullptr) matrix->give(matrix->source, 0, 0, nullptr);
   const bool is_made = make_with_room(*part->factor);
+  if (matrix != nullptr && matrix->is_indefinite != nullptr) {
+    *matrix->is_indefinite = part->factor->is_indefinite() ? 1 : 0;
+  }
   give_memory_back();
   if (has_failed_somewhere(!is_made)) return false;
   find_places(order.size, *part);

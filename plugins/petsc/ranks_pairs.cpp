@@ -35,14 +35,14 @@ void add(float factor, const float* from, std::size_t count, float* to) {
 
 }  // namespace
 
-int Ranks::make_pairs(int rows, int most) {
-  const Order order = give_new(Task::make_pairs, rows, most);
-  return make_pairs_together(order) ? order.number : -1;
+int Ranks::make_pairs(int size, const BuckensGridRows& rows, int most) {
+  const Order order = give_new(Task::make_pairs, size, most, &rows);
+  return make_pairs_together(order, &rows) ? order.number : -1;
 }
 
-bool Ranks::make_pairs_together(const Order& order) {
+bool Ranks::make_pairs_together(const Order& order, const BuckensGridRows* of) {
   auto pairs = std::make_unique<Pairs>();
-  pairs->first = runs_of_others(order.size, count_);
+  pairs->first = agreed_runs(order, of);
   for (int k = 0; k < count_; ++k) pairs->counts.push_back(pairs->first[k + 1] - pairs->first[k]);
   const auto here = static_cast<std::size_t>(pairs->counts[rank_]);
   const bool has_room = has_memory_for([&] {
@@ -160,7 +160,7 @@ void Ranks::give_pairs(Task task, int number, int count) {
 /// Of the others.
 void Ranks::serve_pairs(const Order& order) {
   if (order.task == Task::make_pairs) {
-    (void)make_pairs_together(order);
+    (void)make_pairs_together(order, nullptr);
     return;
   }
   Pairs& own = *shared_->pairs.at(order.number);

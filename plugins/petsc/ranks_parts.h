@@ -45,6 +45,8 @@ enum class Task : int {
   put_rows,
   take_rows,
   solve_rows,
+  partition,
+  find_modes,
   leave
 };
 constexpr int kMostMotions = 6;
@@ -58,7 +60,11 @@ struct Ranks::Order {
     int block = 1;
     int columns;  // of a matrix that is not symmetric; pairs, or which of them; sums of a program
   };
-  int num_motions = 0, options = 0;
+  int num_motions = 0;
+  union {
+    int options = 0;
+    int gives_rows;  // of what is made: whether the first process says which (BuckensGridRows)
+  };
   union {
     BuckensGridLimits limits{};                // of a solve
     std::array<int, kBuckensMostProducts> of;  // matrices of products or of a sum, then −1
@@ -172,8 +178,8 @@ struct Ranks::OwnRows {
   std::vector<double> values, motions;
 };
 
-/// Runs of rows of the processes other than the first, which holds everything else of a body: of
-/// whole nodes, if there may be three variables for each.
+/// Runs of equal length for the processes other than the first, which holds everything else of a
+/// body: of whole nodes, if there may be three variables for each.
 inline std::vector<int> runs_of_others(int size, int count) {
   const int unit = size % 3 == 0 ? 3 : 1;
   std::vector<int> first = {0};

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <vector>
 
+#include "abort_alone.h"
 #include "ranks_messages.h"
 #include "ranks_parts.h"
 
@@ -16,7 +17,6 @@ namespace {
 constexpr std::size_t kVector = 0, kAnswer = 1, kSolver = 2;  // in Order::of
 constexpr int kReason = 400;                                  // characters
 constexpr double kHasFailed = 1.0;
-constexpr int kAborted = 4;  // exit code of numerical errors
 
 }  // namespace
 
@@ -47,21 +47,19 @@ void Ranks::runs(int size, int* first) const {
   std::copy(all.begin() + 1, all.end(), first);
 }
 
-void Ranks::add_runs(const Order& order) {
-  Runs& runs = shared_->runs[order.number];
-  runs.first = runs_of_others(order.size, count_);
+int Ranks::begin_rows(int size, const BuckensGridRows& rows, const BuckensGridDescription& of) {
+  const Order order = give_new(Task::begin_rows, size, 0, &rows);
+  return begin_rows_together(order, &rows, &of) ? order.number : -1;
+}
+
+bool Ranks::begin_rows_together(const Order& order, const BuckensGridRows* rows,
+                                const BuckensGridDescription* of) {
+  Runs runs;
+  runs.first = agreed_runs(order, rows);
   for (int k = 0; k < count_; ++k) runs.counts.push_back(runs.first[k + 1] - runs.first[k]);
-}
-
-int Ranks::begin_rows(int size, const BuckensGridDescription& of) {
-  const Order order = give_new(Task::begin_rows, size);
-  return begin_rows_together(order, &of) ? order.number : -1;
-}
-
-bool Ranks::begin_rows_together(const Order& order, const BuckensGridDescription* of) {
   bool is_made = false;
   if (of != nullptr) {
-    is_made = send_descriptions(runs_of_others(order.size, count_), *of);
+    is_made = send_descriptions(runs.first, *of);
   } else {
     std::vector<char> description;
     is_made = receive_description(description);
@@ -77,7 +75,7 @@ bool Ranks::begin_rows_together(const Order& order, const BuckensGridDescription
     if (is_made && rank_ != 0) maker_.end_rows(order.number);
     return false;
   }
-  add_runs(order);
+  shared_->runs[order.number] = std::move(runs);
   return true;
 }
 
@@ -112,9 +110,7 @@ bool Ranks::work_rows_together(const Order& order, const void* program, double* 
   }
   if (reply.back() != 0.0 && count_ > 2) {
     // The others may be waiting for numbers of this process, which it no longer has.
-    std::fprintf(stderr, "buckens: error: process %d cannot go on: %s; use more memory\n", rank_,
-                 error.data());
-    MPI_Abort(MPI_COMM_WORLD, kAborted);
+    abort_alone(rank_, error.data(), "use more memory");
   }
   send(reply.data(), reply.size(), 0, work_);
   if (reply.back() != 0.0) send(error.data(), kReason, 0, work_);
@@ -217,7 +213,7 @@ bool Ranks::solve_rows_together(const Order& order) {
 void Ranks::serve_rows(const Order& order) {
   switch (order.task) {
     case Task::begin_rows:
-      (void)begin_rows_together(order, nullptr);
+      (void)begin_rows_together(order, nullptr, nullptr);
       break;
     case Task::work_rows:
       (void)work_rows_together(order, nullptr, nullptr);
@@ -227,6 +223,9 @@ void Ranks::serve_rows(const Order& order) {
       break;
     case Task::take_rows:
       take_rows_together(order, nullptr);
+      break;
+    case Task::find_modes:
+      (void)find_modes_together(order, nullptr);
       break;
     default:
       (void)solve_rows_together(order);

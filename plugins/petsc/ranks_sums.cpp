@@ -48,24 +48,27 @@ bool Ranks::sum_terms(const Order& order, const double* of_terms, OwnRows& own) 
   });
 }
 
-int Ranks::add_up(int count, const int* terms, const double* weights, BuckensGridFacts& facts) {
+int Ranks::add_up(int count, const int* terms, const double* weights, const BuckensGridRows& rows,
+                  BuckensGridFacts& facts) {
   Order order;
   order.task = Task::add_up;
   order.number = next_++;
   order.size = shared_->matrices.at(terms[0])->size;
+  order.gives_rows = rows.first != nullptr ? 1 : 0;
   order.set_matrices(terms, count);
   give(order);
-  return add_up_together(order, weights, facts) ? order.number : -1;
+  return add_up_together(order, weights, &rows, facts) ? order.number : -1;
 }
 
-bool Ranks::add_up_together(const Order& order, const double* weights, BuckensGridFacts& facts) {
-  std::unique_ptr<Divided> matrix = empty_division(order);
+bool Ranks::add_up_together(const Order& order, const double* weights, const BuckensGridRows* of,
+                            BuckensGridFacts& facts) {
+  std::unique_ptr<Divided> matrix = empty_division(order, of);
   OwnRows own;
   if (has_failed_somewhere(!sum_terms(order, weights, own))) return false;
   matrix->starts.swap(own.starts);
   matrix->rows.swap(own.rows);
   matrix->values.swap(own.values);
-  return keep(order, std::move(matrix), facts);
+  return keep(order, of, std::move(matrix), facts);
 }
 
 double Ranks::inner_product(int count, const int* terms, const double* a, const double* b) {

@@ -13,6 +13,7 @@
 #include "buckens/body/loose_motions.h"
 #include "buckens/body/second_moments.h"
 #include "buckens/fem/assembly/made_columns.h"
+#include "buckens/fem/assembly/mesh_division.h"
 #include "buckens/fem/constraint/elimination.h"
 #include "buckens/fem/element/node_label.h"
 #include "buckens/linalg/node_matrix.h"
@@ -65,22 +66,27 @@ class Condensation {
  public:
   Condensation(const fem::FeModel& full, const std::vector<RigidRegion>& regions,
                fem::NodeLinks links)
-      : full_(&full), nodes_(full.nodes) {
+      : full_(&full), nodes_(full.nodes), parts_(full.parts) {
     fem::DofMap dofs = full.dofs;
     const std::array<bool, 6> known = known_variables(full.dofs);
     for (const RigidRegion& region : regions) {
       links.rigid.push_back({fmt::format("rigid interface \"{}\"", region.name),
                              static_cast<int>(nodes_.size()), region.nodes});
       nodes_.push_back({region.name, region.centre});
+      if (!parts_.empty()) {
+        parts_.part.push_back(parts_.part[static_cast<std::size_t>(region.nodes.front())]);
+      }
       auto& own = dofs.node_dofs.emplace_back();
       for (std::size_t k = 0; k < 6; ++k) own[k] = known[k] ? dofs.num_dofs++ : -1;
     }
     elimination_ = fem::eliminate(nodes_, dofs, links);
     T_ = elimination_.T.topRows(full.dofs.num_dofs);
     T_.makeCompressed();
+    order_ = fem::row_order(elimination_.dofs, parts_);
   }
 
   const std::vector<fem::Node>& nodes() const { return nodes_; }
+  const fem::NodeParts& parts() const { return parts_; }
   const fem::DofMap& dofs() const { return elimination_.dofs; }
   const SparseMatrix& T() const { return T_; }
   bool is_free(std::size_t node) const { return elimination_.is_free[node]; }
@@ -91,7 +97,8 @@ class Condensation {
   linalg::SymmetricMatrix condensed(fem::MeshMatrix which, const linalg::SymmetricMatrix& A) const {
     if (A.is_divided() && linalg::is_shared_work(T_.cols())) {
       const fem::Following rows = T_;
-      return fem::matrix_made_elsewhere(which, full_->blocks, {full_->nodes, full_->dofs}, &rows);
+      return fem::matrix_made_elsewhere(which, full_->blocks, {full_->nodes, full_->dofs}, order_,
+                                        &rows);
     }
     if (A.nodes() != nullptr) return condensed(linalg::of_variables(*A.nodes()));
     return condensed(A.whole());
@@ -111,6 +118,8 @@ class Condensation {
  private:
   const fem::FeModel* full_;
   std::vector<fem::Node> nodes_;
+  fem::NodeParts parts_;
+  linalg::SharedRowOrder order_;
   fem::Elimination elimination_;
   SparseMatrix T_;
 };
@@ -168,6 +177,7 @@ fem::FeModel condensed(const fem::FeModel& full, const Condensation& elimination
   fem::FeModel fe;
   fe.nodes = elimination.nodes();
   fe.dofs = elimination.dofs();
+  fe.parts = elimination.parts();
   fe.M = elimination.condensed(fem::MeshMatrix::mass, full.M);
   fe.K = elimination.condensed(fem::MeshMatrix::stiffness, full.K);
   fe.K_damping = elimination.condensed(fem::MeshMatrix::damping, full.K_damping);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "buckens/fem/element/dof_map.h"
+#include "buckens/fem/element/node_parts.h"
 #include "buckens/fem/element/shape_integrals.h"
 #include "buckens/linalg/symmetric_matrix.h"
 
@@ -20,6 +21,7 @@ class ElementBlock;
 struct FeModel {
   std::vector<Node> nodes;
   DofMap dofs;
+  NodeParts parts;
   linalg::SymmetricMatrix M;          ///< consistent mass, n×n [kg, kg m, kg m²]
   linalg::SymmetricMatrix K;          ///< stiffness, n×n [N/m, N, N m]
   linalg::SymmetricMatrix K_damping;  ///< Σ β K over materials, n×n; no entries where undamped

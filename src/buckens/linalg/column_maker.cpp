@@ -29,13 +29,13 @@ int make_some(const void* bytes, long count, int first, int end, BuckensGridColu
   });
 }
 
-void add_content_of(int first, int end, const BuckensGridColumns* columns,
+void add_content_of(int count, const BuckensGridColumns* columns, const int* variables,
                     unsigned long long* content) {
   std::array<std::uint64_t, 2> sum{};
-  for (int k = 0; k < end - first; ++k) {
-    const int begin = columns->starts[k];
-    const auto count = static_cast<std::size_t>(columns->starts[k + 1] - begin);
-    add_content(first + k, {columns->rows + begin, count}, {columns->values + begin, count}, sum);
+  for (int k = 0; k < count; ++k) {
+    for (int e = columns->starts[k]; e < columns->starts[k + 1]; ++e) {
+      add_content(variables[columns->rows[e]], variables[k], columns->values[e], sum);
+    }
   }
   for (std::size_t k = 0; k < sum.size(); ++k) content[k] += sum[k];
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <vector>
 
 #include "buckens/linalg/matrix_types.h"
 
@@ -10,8 +11,8 @@ namespace buckens::linalg {
 
 /// A sparse matrix that takes no more memory than its entries, which are gone through twice: to
 /// count them and to store them.
-/// @param visit calls the function that it gets as entry(row, column, value), columns ascending and
-///              the rows of a column, too
+/// @param visit calls the function that it gets as entry(row, column, value), columns in any order;
+///              their rows are stored as they come
 template <class Visit>
 SparseMatrix from_counted_entries(int rows, int columns, Visit&& visit) {
   SparseMatrix out(rows, columns);
@@ -20,10 +21,11 @@ SparseMatrix from_counted_entries(int rows, int columns, Visit&& visit) {
   visit([starts](int, int column, double) { ++starts[column + 1]; });
   std::partial_sum(starts, starts + columns + 1, starts);
   out.resizeNonZeros(starts[columns]);
-  int place = 0;
-  visit([&](int row, int, double value) {
+  std::vector<int> next(starts, starts + columns);
+  visit([&](int row, int column, double value) {
+    const int place = next[static_cast<std::size_t>(column)]++;
     out.innerIndexPtr()[place] = row;
-    out.valuePtr()[place++] = value;
+    out.valuePtr()[place] = value;
   });
   return out;
 }

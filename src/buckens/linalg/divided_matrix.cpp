@@ -5,6 +5,7 @@
 #include <cmath>
 #include <mutex>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include "buckens/linalg/grid_library.h"
 #include "buckens/linalg/put_off_work.h"
 #include "buckens/linalg/ranks.h"
+#include "buckens/linalg/row_order.h"
 
 namespace buckens::linalg {
 
@@ -23,60 +25,65 @@ std::vector<int> numbers_of(std::span<const DividedMatrix* const> terms) {
   return out;
 }
 
-/// What is asked of the plug-in, and what helps where that fails.
-struct Wish {
-  const char *verb, *remedy;
-};
+double gathered_bytes = 0;  // guarded by turn_of_grid_solver()
 constexpr const char* kMoreMemory = "use more memory, or fewer processes on a machine";
 
-/// Asks the plug-in for a matrix, and for its diagonal.
-/// @param ask (plug-in, facts, error, its size) → number
+}  // namespace
+
+/// What is asked of the plug-in, and what helps where that fails.
+struct DividedMatrix::Wish {
+  const char *verb, *remedy;
+};
+
+/// @param ask (plug-in, rows, facts, error, its size) → number
 template <class Ask>
-int ask_for_matrix(Eigen::Index size, const Wish& wish, Vector& diagonal, BuckensGridFacts& facts,
-                   Ask&& ask) {
+void DividedMatrix::ask(Eigen::Index size, const Wish& wish, Ask&& ask) {
   std::array<char, 400> error{};
   const BuckensGridPlugin& plugin = grid_solver();
+  const BuckensGridRows rows = rows_for_plugin(order_);
+  diagonal_.resize(size);
   const std::scoped_lock lock(turn_of_grid_solver());
-  const int number = ask(plugin, &facts, error.data(), static_cast<int>(error.size()));
-  if (number < 0) {
+  number_ = ask(plugin, &rows, &facts_, error.data(), static_cast<int>(error.size()));
+  if (number_ < 0) {
     throw NumericalError(
         fmt::format("a matrix of {} equations on {} processes could not be {}: {}; {}", size,
                     Ranks::count(), wish.verb, error.data(), wish.remedy));
   }
-  diagonal.resize(size);
-  plugin.diagonal(number, diagonal.data());
-  return number;
+  fill_by_rows(order_, diagonal_.data(), [&](double* values) { plugin.diagonal(number_, values); });
 }
 
-}  // namespace
-
-DividedMatrix::DividedMatrix(const SparseMatrix& A) {
-  const BuckensGridColumns columns{A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr()};
-  number_ = ask_for_matrix(A.cols(), {"divided", kMoreMemory}, diagonal_, facts_,
-                           [&](const auto& plugin, auto* facts, char* error, int size) {
-                             return plugin.divide(static_cast<int>(A.cols()), &columns, facts,
-                                                  error, size);
-                           });
+DividedMatrix::DividedMatrix(const SparseMatrix& A, SharedRowOrder order)
+    : order_(std::move(order)) {
+  SparseMatrix by_rows;
+  if (order_) by_rows = renumbered(A, order_->rows());
+  const SparseMatrix& all = order_ ? by_rows : A;
+  const BuckensGridColumns columns{all.outerIndexPtr(), all.innerIndexPtr(), all.valuePtr()};
+  ask(A.cols(), {"divided", kMoreMemory},
+      [&](const auto& plugin, const auto* rows, auto* facts, char* error, int error_size) {
+        return plugin.divide(static_cast<int>(A.cols()), rows, &columns, facts, error, error_size);
+      });
 }
 
-DividedMatrix::DividedMatrix(Eigen::Index size, const DescribeColumns& describe) {
+DividedMatrix::DividedMatrix(Eigen::Index size, const DescribeColumns& describe,
+                             SharedRowOrder order)
+    : order_(std::move(order)) {
   ColumnDescriptions own(describe);
   const BuckensGridDescription of = own.for_plugin();
-  number_ = ask_for_matrix(size, {"made", "check the mesh, or use more memory"}, diagonal_, facts_,
-                           [&](const auto& plugin, auto* facts, char* error, int error_size) {
-                             return plugin.make_columns(static_cast<int>(size), &of, facts, error,
-                                                        error_size);
-                           });
+  ask(size, {"made", "check the mesh, or use more memory"},
+      [&](const auto& plugin, const auto* rows, auto* facts, char* error, int error_size) {
+        return plugin.make_columns(static_cast<int>(size), rows, &of, facts, error, error_size);
+      });
 }
 
 DividedMatrix::DividedMatrix(std::span<const DividedMatrix* const> terms,
-                             std::span<const double> weights) {
+                             std::span<const double> weights)
+    : order_(terms.front()->row_order()) {
   const std::vector<int> numbers = numbers_of(terms);
-  number_ = ask_for_matrix(terms.front()->size(), {"added up", kMoreMemory}, diagonal_, facts_,
-                           [&](const auto& plugin, auto* facts, char* error, int size) {
-                             return plugin.add_up(static_cast<int>(numbers.size()), numbers.data(),
-                                                  weights.data(), facts, error, size);
-                           });
+  ask(terms.front()->size(), {"added up", kMoreMemory},
+      [&](const auto& plugin, const auto* rows, auto* facts, char* error, int error_size) {
+        return plugin.add_up(static_cast<int>(numbers.size()), numbers.data(), weights.data(), rows,
+                             facts, error, error_size);
+      });
 }
 
 DividedMatrix::~DividedMatrix() {
@@ -91,14 +98,25 @@ void DividedMatrix::multiply(std::span<const Product> products) {
     std::array<int, kBuckensMostProducts> numbers{};
     std::array<const double*, kBuckensMostProducts> x{};
     std::array<double*, kBuckensMostProducts> y{};
+    std::array<std::vector<double>, kBuckensMostProducts> x_rows,
+        y_rows;  // where there is an order
     for (std::size_t k = 0; k < some.size(); ++k) {
       numbers[k] = some[k].A->number_;
       x[k] = some[k].x;
       y[k] = some[k].y;
+      const SharedRowOrder& order = some[k].A->order_;
+      if (!order) continue;
+      x_rows[k] = order->by_rows(some[k].x);
+      y_rows[k].resize(x_rows[k].size());
+      x[k] = x_rows[k].data();
+      y[k] = y_rows[k].data();
     }
     {
       const std::scoped_lock lock(turn_of_grid_solver());
       grid_solver().multiply(static_cast<int>(some.size()), numbers.data(), x.data(), y.data());
+    }
+    for (std::size_t k = 0; k < some.size(); ++k) {
+      if (some[k].A->order_) some[k].A->order_->by_variables(y_rows[k], some[k].y);
     }
     products = products.subspan(some.size());
   }
@@ -112,18 +130,41 @@ double DividedMatrix::inner_product(std::span<const DividedMatrix* const> terms,
                                      b.data());
 }
 
+double DividedMatrix::bytes_gathered() {
+  const std::scoped_lock lock(turn_of_grid_solver());
+  return gathered_bytes;
+}
+
 SparseMatrix DividedMatrix::gathered() const {
   SparseMatrix out(size(), size());
   out.resizeNonZeros(entries());
-  const std::scoped_lock lock(turn_of_grid_solver());
-  grid_solver().gather(number_, out.outerIndexPtr(), out.innerIndexPtr(), out.valuePtr());
-  return out;
+  {
+    const std::scoped_lock lock(turn_of_grid_solver());
+    gathered_bytes += static_cast<double>(entries()) * (sizeof(double) + sizeof(int)) +
+                      static_cast<double>(size() + 1) * sizeof(int);
+    grid_solver().gather(number_, out.outerIndexPtr(), out.innerIndexPtr(), out.valuePtr());
+  }
+  return order_ ? renumbered_symmetric(out, order_->variables()) : out;
 }
 
 Vector DividedMatrix::near_diagonal(std::span<const int> lengths) const {
   Vector out(std::accumulate(lengths.begin(), lengths.end(), Eigen::Index{0}));
-  const std::scoped_lock lock(turn_of_grid_solver());
-  grid_solver().near_diagonal(number_, lengths.data(), out.data());
+  std::vector<int> of_rows(lengths.begin(), lengths.end());
+  if (order_) of_rows = order_->by_rows(lengths.data());
+  Vector found(out.size());
+  {
+    const std::scoped_lock lock(turn_of_grid_solver());
+    grid_solver().near_diagonal(number_, of_rows.data(), found.data());
+  }
+  if (!order_) return found;
+  std::vector<Eigen::Index> starts = {0};  // of the variables
+  for (const int length : lengths) starts.push_back(starts.back() + length);
+  Eigen::Index next = 0;
+  for (const int variable : order_->variables()) {
+    const Eigen::Index length = lengths[static_cast<std::size_t>(variable)];
+    out.segment(starts[static_cast<std::size_t>(variable)], length) = found.segment(next, length);
+    next += length;
+  }
   return out;
 }
 

@@ -8,18 +8,22 @@
 #include "buckens/linalg/column_descriptions.h"
 #include "buckens/linalg/grid_plugin.h"
 #include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/shared_row_order.h"
 
 namespace buckens::linalg {
 
-/// A symmetric matrix whose rows other processes have (ranks.h), each a run of them.
+/// A symmetric matrix whose rows other processes have (ranks.h), each a run of them. Outside of
+/// them there are variables only; their order of rows is applied to all that goes there or comes
+/// back.
 class DividedMatrix {
  public:
   /// @throws NumericalError if memory is too small
-  explicit DividedMatrix(const SparseMatrix& A);
+  explicit DividedMatrix(const SparseMatrix& A, SharedRowOrder order = {});
   /// One that the other processes make, each its columns (Ranks::serve).
+  /// @param describe columns in the order of rows
   /// @throws NumericalError if one of them cannot, with its reason
-  DividedMatrix(Eigen::Index size, const DescribeColumns& describe);
-  /// Σ w_k A_k @pre of one size, at least one and at most kBuckensMostProducts
+  DividedMatrix(Eigen::Index size, const DescribeColumns& describe, SharedRowOrder order = {});
+  /// Σ w_k A_k @pre of one order of rows, at least one and at most kBuckensMostProducts
   DividedMatrix(std::span<const DividedMatrix* const> terms, std::span<const double> weights);
   ~DividedMatrix();
   DividedMatrix(const DividedMatrix&) = delete;
@@ -38,6 +42,9 @@ class DividedMatrix {
                               std::span<const double> a, std::span<const double> b);
 
   SparseMatrix gathered() const;
+  const SharedRowOrder& row_order() const { return order_; }
+  /// Memory of all matrices that gathered() has returned.
+  static double bytes_gathered();
   /// Of the plug-in.
   int number() const { return number_; }
   Eigen::Index size() const { return diagonal_.size(); }
@@ -49,6 +56,12 @@ class DividedMatrix {
   std::array<std::uint64_t, 2> content() const { return {facts_.content[0], facts_.content[1]}; }
 
  private:
+  /// Asks the plug-in for the matrix, and for its diagonal.
+  struct Wish;
+  template <class Ask>
+  void ask(Eigen::Index size, const Wish& wish, Ask&& ask);
+
+  SharedRowOrder order_;
   int number_ = -1;
   Vector diagonal_;
   BuckensGridFacts facts_{};

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <mutex>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -11,15 +13,18 @@
 #include "buckens/linalg/grid_library.h"
 #include "buckens/linalg/put_off_work.h"
 #include "buckens/linalg/ranks.h"
+#include "buckens/linalg/row_order.h"
 
 namespace buckens::linalg {
 
 using Eigen::VectorXf;
 
-DividedPairs::DividedPairs(Eigen::Index rows, int most) : rows_(rows) {
+DividedPairs::DividedPairs(Eigen::Index rows, int most, SharedRowOrder order)
+    : rows_(rows), order_(std::move(order)) {
   std::array<char, 400> error{};
+  const BuckensGridRows of = rows_for_plugin(order_);
   const std::scoped_lock lock(turn_of_grid_solver());
-  number_ = grid_solver().make_pairs(static_cast<int>(rows), most, error.data(),
+  number_ = grid_solver().make_pairs(static_cast<int>(rows), &of, most, error.data(),
                                      static_cast<int>(error.size()));
   if (number_ >= 0) return;
   throw NumericalError(
@@ -37,7 +42,15 @@ DividedPairs::~DividedPairs() {
 double DividedPairs::project(int pairs, VectorXf& r, VectorXf& along, TaskPool* /*pool*/) {
   const std::scoped_lock lock(turn_of_grid_solver());
   PutOffWork::finish();
-  return std::sqrt(grid_solver().project(number_, pairs, r.data(), along.data()));
+  double square = 0;
+  if (!order_) {
+    square = grid_solver().project(number_, pairs, r.data(), along.data());
+  } else {
+    std::vector<float> of_rows = order_->by_rows(r.data());
+    square = grid_solver().project(number_, pairs, of_rows.data(), along.data());
+    order_->by_variables(of_rows, r.data());
+  }
+  return std::sqrt(square);
 }
 
 void DividedPairs::combine(int pairs, const VectorXf& weights, const VectorXf& scale, bool adds,
@@ -46,7 +59,9 @@ void DividedPairs::combine(int pairs, const VectorXf& weights, const VectorXf& s
   {
     const std::scoped_lock lock(turn_of_grid_solver());
     PutOffWork::finish();
-    grid_solver().combine(number_, pairs, weights.data(), sum.data());
+    fill_by_rows(order_, sum.data(), [&](float* of_rows) {
+      grid_solver().combine(number_, pairs, weights.data(), of_rows);
+    });
   }
   if (!adds) x.setZero(rows_);
   x += sum.cwiseProduct(scale).cast<double>();
@@ -64,9 +79,15 @@ void DividedPairs::put(int pair, float scale, const VectorXf& load, const Vector
                        TaskPool* /*pool*/) {
   const VectorXf c = scale * load;
   const VectorXf x = scale * answer;
+  std::vector<float> c_rows, x_rows;
+  if (order_) {
+    c_rows = order_->by_rows(c.data());
+    x_rows = order_->by_rows(x.data());
+  }
   const std::scoped_lock lock(turn_of_grid_solver());
   PutOffWork::finish();
-  grid_solver().put_pair(number_, pair, c.data(), x.data());
+  grid_solver().put_pair(number_, pair, order_ ? c_rows.data() : c.data(),
+                         order_ ? x_rows.data() : x.data());
 }
 
 void DividedPairs::take(int pair, VectorXf& load, VectorXf& answer) const {
@@ -74,7 +95,10 @@ void DividedPairs::take(int pair, VectorXf& load, VectorXf& answer) const {
   answer.resize(rows_);
   const std::scoped_lock lock(turn_of_grid_solver());
   PutOffWork::finish();
-  grid_solver().take_pair(number_, pair, load.data(), answer.data());
+  fill_by_rows(order_, load.data(), [&](float* c) {
+    fill_by_rows(order_, answer.data(),
+                 [&](float* x) { grid_solver().take_pair(number_, pair, c, x); });
+  });
 }
 
 }  // namespace buckens::linalg

@@ -9,7 +9,7 @@ namespace buckens::linalg {
 class DividedPairs final : public KeptPairs {
  public:
   /// @throws NumericalError if memory is too small
-  DividedPairs(Eigen::Index rows, int most);
+  DividedPairs(Eigen::Index rows, int most, SharedRowOrder order);
   ~DividedPairs() override;
   DividedPairs(const DividedPairs&) = delete;
   DividedPairs& operator=(const DividedPairs&) = delete;
@@ -25,6 +25,7 @@ class DividedPairs final : public KeptPairs {
 
  private:
   Eigen::Index rows_;
+  SharedRowOrder order_;
   int number_ = -1;
 };
 

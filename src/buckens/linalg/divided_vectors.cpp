@@ -14,6 +14,7 @@
 #include "buckens/linalg/grid_library.h"
 #include "buckens/linalg/put_off_work.h"
 #include "buckens/linalg/ranks.h"
+#include "buckens/linalg/row_order.h"
 #include "buckens/linalg/single_thread.h"
 
 namespace buckens::linalg {
@@ -41,12 +42,12 @@ int next_vector() {
 }  // namespace
 
 DividedVectors::DividedVectors(const WholeNodes& of, const RowMajorMatrix& N)
-    : size_(N.cols()), num_rows_(static_cast<int>(N.rows())) {
+    : size_(N.cols()), num_rows_(static_cast<int>(N.rows())), order_(of.order) {
   begin(of, N, 3);
 }
 
 DividedVectors::DividedVectors(const WholeVariables& of, const RowMajorMatrix& N)
-    : size_(N.cols()), num_rows_(static_cast<int>(N.rows())) {
+    : size_(N.cols()), num_rows_(static_cast<int>(N.rows())), order_(of.order) {
   begin(of, N, 1);
 }
 
@@ -55,7 +56,11 @@ template <class Whole>
 void DividedVectors::begin(const Whole& of, const RowMajorMatrix& N, int width) {
   std::vector<int> first_units(static_cast<std::size_t>(Ranks::count()));
   const std::scoped_lock lock(turn_of_grid_solver());
-  grid_solver().runs(static_cast<int>(size_), first_units.data());
+  if (order_) {
+    first_units = order_->first_rows();
+  } else {
+    grid_solver().runs(static_cast<int>(size_), first_units.data());
+  }
   for (int& first : first_units) first /= width;
   const DescribeColumns describe = [&](int first, int /*end*/) {
     const auto found = std::find(first_units.begin(), first_units.end(), first / width);
@@ -66,7 +71,9 @@ void DividedVectors::begin(const Whole& of, const RowMajorMatrix& N, int width) 
   ColumnDescriptions descriptions(describe);
   const BuckensGridDescription whole = descriptions.for_plugin();
   ErrorText error{};
-  number_ = grid_solver().begin_rows(static_cast<int>(size_), &whole, error.data(), size_of(error));
+  const BuckensGridRows rows = rows_for_plugin(order_);
+  number_ = grid_solver().begin_rows(static_cast<int>(size_), &rows, &whole, error.data(),
+                                     size_of(error));
   if (number_ < 0) fail("vectors", size_, error);
 }
 
@@ -85,8 +92,11 @@ DividedVector DividedVectors::new_vector() {
 DividedVector DividedVectors::put(const Vector& x) {
   DividedVector out = new_vector();
   ErrorText error{};
+  std::vector<double> by_rows;
+  if (order_) by_rows = order_->by_rows(x.data());
+  const double* values = order_ ? by_rows.data() : x.data();
   const std::scoped_lock lock(turn_of_grid_solver());
-  if (grid_solver().put_rows(number_, out.number(), x.data(), error.data(), size_of(error)) != 0) {
+  if (grid_solver().put_rows(number_, out.number(), values, error.data(), size_of(error)) != 0) {
     fail("a vector", size_, error);
   }
   return out;
@@ -96,7 +106,8 @@ void DividedVectors::take(const DividedVector& x, Vector& out) const {
   out.resize(size_);
   const std::scoped_lock lock(turn_of_grid_solver());
   PutOffWork::finish();
-  grid_solver().take_rows(number_, x.number(), out.data());
+  fill_by_rows(order_, out.data(),
+               [&](double* values) { grid_solver().take_rows(number_, x.number(), values); });
 }
 
 DividedVector DividedVectors::solve(void* factor, const DividedVector& b) {

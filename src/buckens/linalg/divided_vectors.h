@@ -11,7 +11,8 @@
 namespace buckens::linalg {
 
 /// Vectors of one body that the other processes have by runs of rows (ranks.h), and the work on
-/// them. Beside vectors, each process has the RowTables of its rows.
+/// them. Vectors that go there or come back are by variables. Beside vectors, each process has the
+/// RowTables of its rows.
 class DividedVectors {
  public:
   /// Of a solid whose inertia acts node by node. @param N columns: variables
@@ -42,6 +43,7 @@ class DividedVectors {
   int number_ = -1;
   Eigen::Index size_;
   int num_rows_;
+  SharedRowOrder order_;
   std::shared_ptr<std::vector<int>> dropped_ = std::make_shared<std::vector<int>>();
 };
 

@@ -8,8 +8,12 @@
 #include "buckens/base/task_pool.h"
 #include "buckens/linalg/divided_vector.h"
 #include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/shared_row_order.h"
 
 namespace buckens::linalg {
+
+struct DividedPencil;
+struct InversePairs;
 
 /// Work of a solver that iterates.
 struct IterationCounts {
@@ -49,10 +53,18 @@ class Factor {
 
   /// Whether it answers vectors that other processes have.
   virtual bool solves_divided() const { return false; }
+  /// In which order the others have rows of A, if it is divided among them.
+  virtual SharedRowOrder row_order() const { return nullptr; }
   /// A⁻¹ b of such a vector. @pre solves_divided()
   virtual DividedVector solve_divided(DividedVectors& /*vectors*/,
                                       const DividedVector& /*b*/) const {
     return {};
+  }
+
+  /// Whether processes find eigenpairs by it among themselves, shared_modes.h. Then they are in
+  /// `pairs`.
+  virtual bool find_pairs(const DividedPencil& /*of*/, InversePairs& /*pairs*/) const {
+    return false;
   }
 
   /// x ← A⁻¹ x. Cost: two passes over the factor.
@@ -76,8 +88,10 @@ inline void Factor::improve(const Vector& b, Vector& x, double /*energy*/) const
   solve_in_place(x);
 }
 
-/// Function that factorises A, symmetric with both triangles stored.
+class MatrixSum;
+
+/// Function that factorises A, of which it keeps nothing.
 /// @throws NumericalError if A is not positive definite
-using MakeFactor = std::function<std::shared_ptr<const Factor>(const SparseMatrix& A)>;
+using MakeFactor = std::function<std::shared_ptr<const Factor>(const MatrixSum& A)>;
 
 }  // namespace buckens::linalg

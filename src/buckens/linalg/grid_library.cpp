@@ -31,7 +31,7 @@ struct GridLibrary {
     }
     reason = fmt::format(
         "this installation has none: there is no file {}; build Buckens with "
-        "-DBUCKENS_PETSC=ON (Debian: libpetsc-real-dev)",
+        "-DBUCKENS_PETSC=ON (Debian: libpetsc-real-dev, libslepc-real-dev, libptscotch-dev)",
         places.empty() ? kGridFile : places.back().string());
   }
 

@@ -7,7 +7,7 @@
 extern "C" {
 
 /// Rises with every change of what stands here.
-enum { kBuckensGridVersion = 10 };
+enum { kBuckensGridVersion = 11 };
 
 /// Products that one order may ask for.
 enum { kBuckensMostProducts = 8 };
@@ -42,6 +42,8 @@ struct BuckensGridMatrix {
   const int* terms;
   const double* weights;
   int num_terms;
+  /// Null, or gets whether no factor was made because the matrix is not positive definite.
+  int* is_indefinite;
 };
 
 /// When an iteration may stop: ‖r‖ ≤ clamp(absolute, least ‖r₀‖, most ‖r₀‖), in the norm of the
@@ -78,6 +80,22 @@ struct BuckensGridDescription {
   void* source;
 };
 
+/// Which rows of matrices and vectors the processes other than the first have, and which variables
+/// these are.
+struct BuckensGridRows {
+  const int* first;      ///< rows of these processes, and the end; null: runs of equal length
+  const int* variables;  ///< of each row; null: the same numbers
+};
+
+/// The elements of a mesh by their nodes.
+struct BuckensGridMesh {
+  int num_nodes;
+  const int* weights;  ///< of the nodes
+  long num_elements;
+  const long* starts;  ///< one more than elements, from 0
+  const int* nodes;
+};
+
 /// How a process that has rows of vectors reaches the others that have some.
 struct BuckensGridPeers {
   /// Gives numbers to each of these processes and takes some from each, one after the other, itself
@@ -98,9 +116,10 @@ struct BuckensGridMaker {
   /// describe() says; they live until the next call. Null for them gives the memory back.
   int (*make)(const void* bytes, long count, int first, int end, BuckensGridColumns* columns,
               char* error, int error_size);
-  /// Adds a number for these columns, from the diagonal on, to `content`. The order of sums does
-  /// not count.
-  void (*add_content)(int first, int end, const BuckensGridColumns* columns,
+  /// Adds a number for these entries of one triangle to `content`. The order of sums does not
+  /// count, nor which triangle they are of. @param variables of the columns, and of what `rows`
+  /// count
+  void (*add_content)(int count, const BuckensGridColumns* columns, const int* variables,
                       unsigned long long* content);
   /// Takes note of what belongs to its rows of the vectors of a body, as described.
   int (*begin_rows)(int number, const void* bytes, long count, char* error, int error_size);
@@ -110,6 +129,23 @@ struct BuckensGridMaker {
                    const double** sums, long* num_sums, char* error, int error_size);
   /// Where its rows of a vector are, which gets room if it has none; null if memory is too small.
   double* (*rows)(int number, int vector);
+};
+
+/// The lowest pairs of K x = lambda M x, as the largest theta = 1 / (lambda + shift) of
+/// M x = theta A x with A = K + shift M, of which there is a factor.
+struct BuckensGridModes {
+  int stiffness, mass;  ///< numbers of divided matrices
+  double shift;
+  /// Of an answer ||A^-1 M x - theta x||_M / theta at most, which is about the error of x.
+  double tolerance;
+  int count;
+  int num_motions;        ///< rigid motions, which are left out
+  const double* motions;  ///< size x num_motions, by columns, M-orthonormal
+  double* theta;          ///< gets `found` numbers, largest first
+  double* shapes;         ///< size x count, by columns; gets `found` ones, M-orthonormal
+  int found;              ///< fewer than `count` if the iteration did not converge
+  int restarts;
+  long solves;
 };
 
 /// Functions that fail return null or not zero and write why into `error`.
@@ -134,8 +170,9 @@ struct BuckensGridPlugin {
   void (*traffic)(BuckensGridTraffic* traffic);
   /// Of the first: gives all columns of a symmetric matrix to the other processes, which multiply
   /// by them from then on. Only where there are others. @return its number, -1 after an error
-  int (*divide)(int size, const BuckensGridColumns* all, BuckensGridFacts* facts, char* error,
-                int error_size);
+  /// @param all in the order of `of`
+  int (*divide)(int size, const BuckensGridRows* of, const BuckensGridColumns* all,
+                BuckensGridFacts* facts, char* error, int error_size);
   /// The same of a matrix of any shape: `all` are its rows, with columns in place of `rows`. It
   /// cannot be gathered, nor be a term of a sum.
   int (*divide_rows)(int rows, int columns, const BuckensGridColumns* all, char* error,
@@ -144,11 +181,11 @@ struct BuckensGridPlugin {
   int (*make_rows)(int rows, int columns, const BuckensGridDescription* of, char* error,
                    int error_size);
   /// As divide(), of a symmetric matrix whose columns the other processes make.
-  int (*make_columns)(int size, const BuckensGridDescription* of, BuckensGridFacts* facts,
-                      char* error, int error_size);
-  /// As divide(), of a sum of divided matrices.
-  int (*add_up)(int count, const int* terms, const double* weights, BuckensGridFacts* facts,
-                char* error, int error_size);
+  int (*make_columns)(int size, const BuckensGridRows* rows, const BuckensGridDescription* of,
+                      BuckensGridFacts* facts, char* error, int error_size);
+  /// As divide(), of a sum of divided matrices of the same rows.
+  int (*add_up)(int count, const int* terms, const double* weights, const BuckensGridRows* rows,
+                BuckensGridFacts* facts, char* error, int error_size);
   /// y_k = A_k x_k of divided matrices by one order, at most kBuckensMostProducts.
   void (*multiply)(int count, const int* matrices, const double* const* x, double* const* y);
   /// The sum of the products of all entries of two sums of divided matrices.
@@ -171,7 +208,7 @@ struct BuckensGridPlugin {
   void (*forget)(int number);
   /// Of the first: room for `most` pairs of vectors, a load and an answer, of which the other
   /// processes have the rows. Only where there are others. @return its number, -1 after an error
-  int (*make_pairs)(int rows, int most, char* error, int error_size);
+  int (*make_pairs)(int size, const BuckensGridRows* rows, int most, char* error, int error_size);
   /// along_i = c_i r and r = r - sum of along_i c_i, over the loads c_i of the first pairs.
   /// @return the square of the norm of r
   double (*project)(int number, int pairs, float* r, float* along);
@@ -179,11 +216,13 @@ struct BuckensGridPlugin {
   void (*combine)(int number, int pairs, const float* weights, float* sum);
   void (*put_pair)(int number, int pair, const float* load, const float* answer);
   void (*take_pair)(int number, int pair, float* load, float* answer);
-  /// First rows of the other processes, and the end: as many numbers as there are processes.
+  /// First rows of the other processes, and the end, where they have runs of equal length: as many
+  /// numbers as there are processes.
   void (*runs)(int size, int* first);
   /// Of the first: what belongs to the rows of each process of the vectors of a body.
   /// @return its number, -1 after an error; forget() ends it
-  int (*begin_rows)(int size, const BuckensGridDescription* of, char* error, int error_size);
+  int (*begin_rows)(int size, const BuckensGridRows* rows, const BuckensGridDescription* of,
+                    char* error, int error_size);
   /// Has the others work on their rows. @param sums of each, one process after the other
   int (*work_rows)(const void* program, long count, int sums_each, double* sums, char* error,
                    int error_size);
@@ -191,6 +230,11 @@ struct BuckensGridPlugin {
   void (*take_rows)(int number, int vector, double* values);
   /// x = A^-1 b by a solver that make() made of a factor, b and x vectors of the others.
   int (*solve_rows)(void* solver, int number, int b, int x, char* error, int error_size);
+  /// Of the first: divides the nodes of a mesh among the other processes, so that few elements have
+  /// nodes of several. @param part gets the place of one of these processes, from 0, for each node
+  int (*partition)(const BuckensGridMesh* mesh, int* part, char* error, int error_size);
+  /// By a solver that make() made of a factor of K + shift M. The others have all vectors.
+  int (*find_modes)(void* solver, BuckensGridModes* modes, char* error, int error_size);
 };
 
 /// The one function that a plug-in exports.

@@ -134,8 +134,10 @@ class OwnPairs final : public KeptPairs {
 
 }  // namespace
 
-std::unique_ptr<KeptPairs> make_kept_pairs(Index rows, int most) {
-  if (most > 0 && is_shared_work(rows)) return std::make_unique<DividedPairs>(rows, most);
+std::unique_ptr<KeptPairs> make_kept_pairs(Index rows, int most, SharedRowOrder order) {
+  if (most > 0 && is_shared_work(rows)) {
+    return std::make_unique<DividedPairs>(rows, most, std::move(order));
+  }
   return std::make_unique<OwnPairs>(rows, most);
 }
 

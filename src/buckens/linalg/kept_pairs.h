@@ -7,6 +7,7 @@
 #include "buckens/base/task_pool.h"
 #include "buckens/linalg/matrix_types.h"
 #include "buckens/linalg/row_parts.h"
+#include "buckens/linalg/shared_row_order.h"
 
 namespace buckens::linalg {
 
@@ -39,6 +40,7 @@ class KeptPairs {
 
 /// Room for `most` pairs of vectors with so many rows: in this process, or, where several share the
 /// work and there are many rows, divided among the others (ranks.h).
-std::unique_ptr<KeptPairs> make_kept_pairs(Eigen::Index rows, int most);
+/// @param order of the rows of the others
+std::unique_ptr<KeptPairs> make_kept_pairs(Eigen::Index rows, int most, SharedRowOrder order);
 
 }  // namespace buckens::linalg

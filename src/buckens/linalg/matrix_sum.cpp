@@ -29,9 +29,19 @@ bool MatrixSum::is_divided() const {
   });
 }
 
-std::vector<const DividedMatrix*> MatrixSum::divide() const {
+SharedRowOrder MatrixSum::row_order() const {
+  for (const Term& term : terms_) {
+    SharedRowOrder order = term.symmetric->row_order();
+    if (order) return order;
+  }
+  return nullptr;
+}
+
+std::vector<const DividedMatrix*> MatrixSum::divide() const { return divide(row_order()); }
+
+std::vector<const DividedMatrix*> MatrixSum::divide(const SharedRowOrder& order) const {
   std::vector<const DividedMatrix*> out;
-  for (const Term& term : terms_) out.push_back(&term.symmetric->divide());
+  for (const Term& term : terms_) out.push_back(&term.symmetric->divide(order));
   return out;
 }
 
@@ -45,11 +55,11 @@ double inner_product(const MatrixSum& A, const MatrixSum& B) {
   std::vector<const DividedMatrix*> terms = A.divide();
   std::vector<double> a, b(terms.size(), 0.0);
   for (const MatrixSum::Term& term : A.terms()) a.push_back(term.weight);
-  for (const MatrixSum::Term& term : B.terms()) {
-    terms.push_back(&term.symmetric->divide());
+  for (const DividedMatrix* term : B.divide(A.row_order())) {
+    terms.push_back(term);
     a.push_back(0.0);
-    b.push_back(term.weight);
   }
+  for (const MatrixSum::Term& term : B.terms()) b.push_back(term.weight);
   return DividedMatrix::inner_product(terms, a, b);
 }
 

@@ -54,12 +54,19 @@ class MatrixSum {
     }
   };
   const std::vector<Term>& terms() const { return terms_; }
+  /// The only term, if there is one of weight 1 that is always whole; else null.
+  const SparseMatrix* alone() const {
+    return terms_.size() == 1 && terms_[0].weight == 1.0 ? terms_[0].always_whole : nullptr;
+  }
   /// Whether all terms can be divided.
   bool is_divisible() const;
   /// Whether other processes have the rows of all terms.
   bool is_divided() const;
-  /// All terms, which are divided from then on. @pre is_divisible()
+  /// All terms, which are divided from then on, in one order of rows. @pre is_divisible()
   std::vector<const DividedMatrix*> divide() const;
+  std::vector<const DividedMatrix*> divide(const SharedRowOrder& order) const;
+  /// That of the first term that has one. @pre is_divisible()
+  SharedRowOrder row_order() const;
   /// The sum itself, which the processes that have its terms form. @pre is_divided()
   SymmetricMatrix divided() const;
 

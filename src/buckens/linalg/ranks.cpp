@@ -14,12 +14,16 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/base/free_memory.h"
+#include "buckens/linalg/cholmod_factor.h"
 #include "buckens/linalg/column_maker.h"
 #include "buckens/linalg/divided_graph.h"
+#include "buckens/linalg/divided_matrix.h"
 #include "buckens/linalg/divided_vectors.h"
 #include "buckens/linalg/factor_work.h"
 #include "buckens/linalg/grid_library.h"
+#include "buckens/linalg/row_order.h"
 #include "buckens/linalg/row_service.h"
+#include "buckens/linalg/shared_modes.h"
 #include "buckens/linalg/single_thread.h"
 #include "buckens/linalg/sparse_cholesky.h"
 
@@ -49,6 +53,15 @@ std::vector<int> places_in_factor(const ColumnGraph& graph) {
   return out;
 }
 
+[[noreturn]] void refuse_factor(Eigen::Index size, const std::string& reason, bool is_indefinite) {
+  const std::string text = fmt::format(
+      "the factor of {} equations on {} processes failed: {}; check the mesh, or use "
+      "more memory",
+      size, count_of_ranks, reason);
+  if (is_indefinite) throw IndefiniteMatrix(text);
+  throw NumericalError(text);
+}
+
 class SharedFactor final : public Factor {
  public:
   explicit SharedFactor(const MatrixSum& A) : size_(A.size()), plugin_(grid_solver()) {
@@ -62,6 +75,7 @@ class SharedFactor final : public Factor {
     std::vector<int> order;
     if (A.is_divisible()) {
       const std::vector<const DividedMatrix*> divided = A.divide();
+      row_order_ = divided.front()->row_order();
       for (std::size_t k = 0; k < divided.size(); ++k) {
         terms.push_back(divided[k]->number());
         weights.push_back(A.terms()[k].weight);
@@ -79,18 +93,15 @@ class SharedFactor final : public Factor {
     }
     matrix.block = 1;
     matrix.order = order.data();
+    int is_indefinite = 0;
+    matrix.is_indefinite = &is_indefinite;
     std::array<char, 400> error{};
     {
       const std::scoped_lock lock(turn_of_grid_solver());
       const SingleThread single;
       handle_ = plugin_.make(&matrix, error.data(), static_cast<int>(error.size()));
     }
-    if (handle_ == nullptr) {
-      throw NumericalError(
-          fmt::format("the factor of {} equations on {} processes failed: {}; check the mesh, or "
-                      "use more memory",
-                      size_, count_of_ranks, error.data()));
-    }
+    if (handle_ == nullptr) refuse_factor(size_, error.data(), is_indefinite != 0);
     const std::scoped_lock lock(turn_of_grid_solver());
     bytes_ = plugin_.bytes(handle_);
   }
@@ -114,8 +125,13 @@ class SharedFactor final : public Factor {
     for (double* x : vectors) solve_one(x, x);
   }
   bool solves_divided() const override { return true; }
+  SharedRowOrder row_order() const override { return row_order_; }
   DividedVector solve_divided(DividedVectors& vectors, const DividedVector& b) const override {
     return vectors.solve(handle_, b);
+  }
+  bool find_pairs(const DividedPencil& of, InversePairs& pairs) const override {
+    pairs = shared_pairs(handle_, of);
+    return true;
   }
 
  private:
@@ -125,8 +141,13 @@ class SharedFactor final : public Factor {
     std::array<char, 400> error{};
     const std::scoped_lock lock(turn_of_grid_solver());
     const SingleThread single;
-    const int failure = plugin_.solve(handle_, b, x, &limits, &outcome, error.data(),
-                                      static_cast<int>(error.size()));
+    int failure = 0;
+    std::vector<double> of_rows;
+    if (row_order_) of_rows = row_order_->by_rows(b);
+    fill_by_rows(row_order_, x, [&](double* answer) {
+      failure = plugin_.solve(handle_, row_order_ ? of_rows.data() : b, answer, &limits, &outcome,
+                              error.data(), static_cast<int>(error.size()));
+    });
     if (failure == 0 && outcome.has_converged != 0) return;
     throw NumericalError(
         fmt::format("a solve of {} equations on {} processes failed: {}; run it in "
@@ -136,6 +157,7 @@ class SharedFactor final : public Factor {
 
   Eigen::Index size_;
   const BuckensGridPlugin& plugin_;
+  SharedRowOrder row_order_;
   void* handle_ = nullptr;
   double bytes_ = 0;
 };
@@ -182,23 +204,16 @@ Traffic Ranks::traffic() {
   if (count_of_ranks == 1) return {};
   BuckensGridTraffic out{};
   grid_solver().traffic(&out);
-  return {out.messages, out.bytes};
+  return {out.messages, out.bytes, DividedMatrix::bytes_gathered()};
 }
 
 bool is_shared_work(Eigen::Index variables) {
   return count_of_ranks > 1 && variables >= kWorthSharing;
 }
 
-std::shared_ptr<const Factor> make_large_factor(const SparseMatrix& A) {
-  if (!is_shared_work(A.rows())) return make_cholesky(A);
-  MatrixSum alone;
-  alone.add(1.0, A);
-  return std::make_shared<const SharedFactor>(alone);
-}
-
-std::shared_ptr<const Factor> make_large_factor_of(const MatrixSum& A) {
+std::shared_ptr<const Factor> make_large_factor(const MatrixSum& A) {
   if (is_shared_work(A.size())) return std::make_shared<const SharedFactor>(A);
-  return std::make_shared<const SparseCholesky>(A);
+  return make_cholesky(A);
 }
 
 void ColumnSource::give(void* source, int first, int end, BuckensGridColumns* columns) {

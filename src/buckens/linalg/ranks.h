@@ -23,6 +23,13 @@ StartedProcesses started_processes();
 struct Traffic {
   long messages = 0;
   double bytes = 0;
+  /// Memory that divided matrices took here when they came back (SymmetricMatrix::whole()).
+  double bytes_of_whole_matrices = 0;
+
+  Traffic since(const Traffic& before) const {
+    return {messages - before.messages, bytes - before.bytes,
+            bytes_of_whole_matrices - before.bytes_of_whole_matrices};
+  }
 };
 
 /// Columns `first` to `end` − 1, of a symmetric matrix from the diagonal on, n×(end − first), made
@@ -62,11 +69,11 @@ bool is_shared_work(Eigen::Index variables);
 /// What makes the factors of bodies unless they iterate: SparseCholesky in this process, or, where
 /// several share the work and A is large, MUMPS, with the factor distributed over all. No process
 /// then holds more of A than the rows of one of them.
-/// @throws NumericalError if A is not finite or not positive definite, or memory is too small
-std::shared_ptr<const Factor> make_large_factor(const SparseMatrix& A);
-/// The same of a sum, which is formed whole only if this process factorises it. Otherwise its terms
-/// are divided among the others from then on, which form it (SymmetricMatrix).
-std::shared_ptr<const Factor> make_large_factor_of(const MatrixSum& A);
+/// Where they share it, all terms that can be divided are divided among the others from then on,
+/// which form the sum (SymmetricMatrix).
+/// @throws IndefiniteMatrix if A is not positive definite
+/// @throws NumericalError if A is not finite or memory is too small
+std::shared_ptr<const Factor> make_large_factor(const MatrixSum& A);
 
 /// Gives columns of a sum to the plug-in (BuckensGridMatrix::give), one run of them at a time.
 class ColumnSource {

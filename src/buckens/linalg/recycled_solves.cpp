@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace buckens::linalg {
 
@@ -28,11 +29,11 @@ constexpr long kMostCounted = 1L << 60;
 std::size_t index(int pair) { return static_cast<std::size_t>(pair); }
 }  // namespace
 
-RecycledSolves::RecycledSolves(const Vector& inverse_diagonal, int most)
+RecycledSolves::RecycledSolves(const Vector& inverse_diagonal, int most, SharedRowOrder order)
     : parts_(inverse_diagonal.size()),
       most_(std::max(most, 0)),
       scale_(inverse_diagonal.cwiseSqrt().cast<float>()),
-      pairs_(make_kept_pairs(rows(), most_)),
+      pairs_(make_kept_pairs(rows(), most_, std::move(order))),
       squares_(static_cast<std::size_t>(parts_.count())) {
   scores_.reserve(static_cast<std::size_t>(most_));
   made_.reserve(static_cast<std::size_t>(most_));

@@ -52,7 +52,8 @@ class RecycledSolves {
 
   /// @param inverse_diagonal 1/Aⱼⱼ, n
   /// @param most largest number of pairs; 0: nothing is kept
-  RecycledSolves(const Vector& inverse_diagonal, int most);
+  /// @param order of the rows that other processes have
+  RecycledSolves(const Vector& inverse_diagonal, int most, SharedRowOrder order = {});
 
   /// f ← A⁻¹ (f − r) with ‖r‖ ≤ limit and true, or f ← what is to be solved for and false: then
   /// complete() is to follow.

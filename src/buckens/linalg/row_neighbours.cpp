@@ -46,14 +46,17 @@ int RowNeighbours::place_of(int unit) const {
   return own_->count + static_cast<int>(found - own_->beside.begin());
 }
 
-SparseMatrix columns_at_places(const SparseMatrix& A, int first, int count,
+SparseMatrix columns_at_places(const SparseMatrix& A, const RowTables& own, const UnitOrder& order,
                                const RowNeighbours& beside) {
-  SparseMatrix columns = A.middleCols(first, count);
-  columns.makeCompressed();
-  for (Eigen::Index e = 0; e < columns.nonZeros(); ++e) {
-    int& row = columns.innerIndexPtr()[e];
-    row = beside.place_of(row);
+  std::vector<Triplet> entries;
+  for (int k = 0; k < own.count; ++k) {
+    for (SparseMatrix::InnerIterator it(A, order.number(own.first + k)); it; ++it) {
+      const int unit = order.unit(static_cast<int>(it.row()));
+      entries.emplace_back(beside.place_of(unit), k, it.value());
+    }
   }
+  SparseMatrix columns(A.rows(), own.count);
+  columns.setFromTriplets(entries.begin(), entries.end());
   return columns;
 }
 

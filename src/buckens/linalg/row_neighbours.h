@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "buckens/base/number_bytes.h"
+#include "buckens/linalg/row_order.h"
 #include "buckens/linalg/row_tables.h"
 
 namespace buckens::linalg {
@@ -32,11 +33,37 @@ class RowNeighbours {
 };
 
 /// Puts what tables of all kinds have in common; RowTables::inertia follows.
-void put_runs(const RowTables& own, const RowMajorMatrix& N, base::BytesTo& put);
+void put_runs(const RowTables& own, const RowMajorMatrix& N, const SharedRowOrder& order,
+              base::BytesTo& put);
 
-/// Columns `first` to `first + count` − 1 of A, with places for rows.
-SparseMatrix columns_at_places(const SparseMatrix& A, int first, int count,
+/// Numbers of units in the order of rows, and back. A unit is a node of three variables or a
+/// variable.
+class UnitOrder {
+ public:
+  UnitOrder(const SharedRowOrder& order, int width) : order_(order.get()), width_(width) {}
+  int unit(int number) const {
+    return order_ != nullptr ? order_->row(width_ * number) / width_ : number;
+  }
+  int number(int unit) const {
+    return order_ != nullptr ? order_->variable(width_ * unit) / width_ : unit;
+  }
+
+ private:
+  const RowOrder* order_;
+  int width_;
+};
+
+/// Columns of a run of units of A, with places for rows.
+SparseMatrix columns_at_places(const SparseMatrix& A, const RowTables& own, const UnitOrder& order,
                                const RowNeighbours& beside);
+
+/// Rows of a run of units, as many as are here.
+template <class Columns>
+Matrix rows_here(const Columns& of, const RowTables& own, const UnitOrder& order) {
+  Matrix out(own.count, of.cols());
+  for (int k = 0; k < own.count; ++k) out.row(k) = of.row(order.number(own.first + k));
+  return out;
+}
 
 template <class Sparse>
 void put_sparse(const Sparse& A, base::BytesTo& put) {

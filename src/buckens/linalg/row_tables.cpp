@@ -8,13 +8,13 @@ namespace buckens::linalg {
 
 namespace {
 
-/// Entries of the columns of some variables, with columns counted from the first of them.
-RowMajorMatrix columns_of(const RowMajorMatrix& N, int first, int end) {
+/// Entries of the columns of rows `first` to `end` − 1, with columns counted from the first.
+RowMajorMatrix columns_of(const RowMajorMatrix& N, const UnitOrder& order, int first, int end) {
   std::vector<Triplet> entries;
   for (int row = 0; row < N.outerSize(); ++row) {
     for (RowMajorMatrix::InnerIterator it(N, row); it; ++it) {
-      if (it.col() >= first && it.col() < end)
-        entries.emplace_back(row, it.col() - first, it.value());
+      const int column = order.unit(static_cast<int>(it.col()));
+      if (column >= first && column < end) entries.emplace_back(row, column - first, it.value());
     }
   }
   RowMajorMatrix out(N.rows(), end - first);
@@ -46,11 +46,13 @@ NodeTables described_nodes(int nodes, base::BytesFrom& take) {
 
 }  // namespace
 
-void put_runs(const RowTables& own, const RowMajorMatrix& N, base::BytesTo& put) {
+void put_runs(const RowTables& own, const RowMajorMatrix& N, const SharedRowOrder& order,
+              base::BytesTo& put) {
   put(own.width);
   put(own.first);
   put(own.count);
-  put_sparse(columns_of(N, own.width * own.first, own.width * (own.first + own.count)), put);
+  const int first = own.width * own.first;
+  put_sparse(columns_of(N, {order, 1}, first, first + own.width * own.count), put);
   for (const auto* list : {&own.beside, &own.in_counts, &own.sent, &own.out_counts}) {
     put_list(*list, put);
   }
@@ -60,18 +62,21 @@ void describe_rows(const WholeNodes& of, const RowMajorMatrix& N, std::span<cons
                    std::size_t place, base::BytesTo& put) {
   RowTables own;
   own.width = 3;
+  const UnitOrder order(of.order, own.width);
   RowNeighbours neighbours(first_units, place, own);
   for (int node = own.first; node < own.first + own.count; ++node) {
-    for (SparseMatrix::InnerIterator it(*of.Ms, node); it; ++it) {
-      neighbours.add(node, static_cast<int>(it.row()));
+    for (SparseMatrix::InnerIterator it(*of.Ms, order.number(node)); it; ++it) {
+      neighbours.add(node, order.unit(static_cast<int>(it.row())));
     }
   }
   neighbours.finish();
-  put_runs(own, N, put);
-  put_sparse(columns_at_places(*of.Ms, own.first, own.count, neighbours), put);
-  const auto nodes = static_cast<std::size_t>(own.count);
-  put.all(of.positions->col(own.first).data(), 4 * nodes);
-  put.all(of.first_moments->col(own.first).data(), 4 * nodes);
+  put_runs(own, N, of.order, put);
+  put_sparse(columns_at_places(*of.Ms, own, order, neighbours), put);
+  for (const Eigen::Matrix4Xd* columns : {of.positions, of.first_moments}) {
+    for (int node = own.first; node < own.first + own.count; ++node) {
+      put.all(columns->col(order.number(node)).data(), 4);
+    }
+  }
 }
 
 RowTables described_rows(base::BytesFrom& take) {

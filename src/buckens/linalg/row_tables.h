@@ -10,6 +10,7 @@
 
 #include "buckens/base/number_bytes.h"
 #include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/shared_row_order.h"
 
 namespace buckens::linalg {
 
@@ -56,6 +57,7 @@ struct WholeNodes {
   const SparseMatrix* Ms = nullptr;
   const Eigen::Matrix4Xd* positions = nullptr;
   const Eigen::Matrix4Xd* first_moments = nullptr;
+  SharedRowOrder order = {};  ///< of the variables, whole nodes; null: as they are
 };
 
 /// Of the whole body, what VariableTables are made of.
@@ -65,9 +67,11 @@ struct WholeVariables {
   const SparseMatrix* Ms = nullptr;  ///< null: none
   const std::vector<std::array<int, 3>>* dofs = nullptr;
   const Matrix *Phi = nullptr, *P = nullptr, *patterns = nullptr;
+  SharedRowOrder order = {};  ///< null: as they are
 };
 
-/// What belongs to one run of units. @param first_units of all processes, and the end.
+/// What belongs to one run of units, numbered in the order of rows.
+/// @param first_units of all processes, and the end.
 /// @param place of the process
 void describe_rows(const WholeNodes& of, const RowMajorMatrix& N, std::span<const int> first_units,
                    std::size_t place, base::BytesTo& put);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/linalg/symmetric_matrix.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "buckens/linalg/column_content.h"
 #include "buckens/linalg/divided_matrix.h"
 #include "buckens/linalg/node_matrix.h"
+#include "buckens/linalg/row_order.h"
 #include "buckens/linalg/same_bits.h"
 
 namespace buckens::linalg {
@@ -20,11 +20,9 @@ namespace {
 std::array<std::uint64_t, 2> content_of(const SparseMatrix& A) {
   std::array<std::uint64_t, 2> sum{};
   for (int column = 0; column < A.cols(); ++column) {
-    const int* end = A.innerIndexPtr() + A.outerIndexPtr()[column + 1];
-    const int* first = std::lower_bound(A.innerIndexPtr() + A.outerIndexPtr()[column], end, column);
-    const auto place = static_cast<std::size_t>(first - A.innerIndexPtr());
-    const auto count = static_cast<std::size_t>(end - first);
-    add_content(column, {first, count}, {A.valuePtr() + place, count}, sum);
+    for (SparseMatrix::InnerIterator it(A, column); it; ++it) {
+      if (it.row() >= column) add_content(static_cast<int>(it.row()), column, it.value(), sum);
+    }
   }
   return sum;
 }
@@ -77,6 +75,7 @@ const SparseMatrix& SymmetricMatrix::whole() const {
   if (divided_) {
     SparseMatrix A = divided_->gathered();
     here_.swap(A);
+    order_ = divided_->row_order();
     divided_.reset();
   }
   if (!is_formed()) {
@@ -100,16 +99,21 @@ std::array<std::uint64_t, 2> SymmetricMatrix::content() const {
   return divided_ ? divided_->content() : content_of(here_);
 }
 
-const DividedMatrix& SymmetricMatrix::divide() const {
+SharedRowOrder SymmetricMatrix::row_order() const {
+  return divided_ ? divided_->row_order() : order_;
+}
+
+const DividedMatrix& SymmetricMatrix::divide(const SharedRowOrder& order) const {
+  if (divided_ && !is_same_order(divided_->row_order(), order)) (void)whole();
   if (!divided_) {
-    divided_ = std::make_shared<const DividedMatrix>(whole());
+    divided_ = std::make_shared<const DividedMatrix>(whole(), order);
     drop();
   }
   return *divided_;
 }
 
 void SymmetricMatrix::share(const SymmetricMatrix& equal) const {
-  if (!equal.divided_ || divided_) return;
+  if (!equal.divided_ || divided_ == equal.divided_) return;
   divided_ = equal.divided_;
   drop();
 }

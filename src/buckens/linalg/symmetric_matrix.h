@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/shared_row_order.h"
 
 namespace buckens::linalg {
 
@@ -17,7 +18,7 @@ class DividedMatrix;
 /// A sparse symmetric matrix, both triangles stored, such as M, K and C of a body.
 ///
 /// Where several processes share the work it may be divided among those other than the first
-/// (ranks.h): make_large_factor_of() does so with the terms of a sum. That changes where its
+/// (ranks.h): make_large_factor() does so with the terms of a sum. That changes where its
 /// numbers are and not what they are, so it is possible with constant objects, too. Products then
 /// go over those processes; whole() brings it back.
 ///
@@ -43,6 +44,7 @@ class SymmetricMatrix {
     here_.swap(from.here_);
     nodes_.swap(from.nodes_);
     divided_.swap(from.divided_);
+    order_.swap(from.order_);
     return *this;
   }
   ~SymmetricMatrix() = default;
@@ -93,7 +95,11 @@ class SymmetricMatrix {
   /// Gives the rows to the other processes, unless they have them; a matrix by node is one like
   /// others from then on. @pre Ranks::count() > 1
   /// @throws NumericalError if memory is too small
-  const DividedMatrix& divide() const;
+  const DividedMatrix& divide() const { return divide(row_order()); }
+  /// In a given order of rows, which all terms of a sum have in common.
+  const DividedMatrix& divide(const SharedRowOrder& order) const;
+  /// That of the processes that have the rows or had them last; null before.
+  SharedRowOrder row_order() const;
   /// Has the rows of an equal matrix from now on, where other processes have those.
   void share(const SymmetricMatrix& equal) const;
   bool is_divided() const { return divided_ != nullptr; }
@@ -105,6 +111,7 @@ class SymmetricMatrix {
   mutable SparseMatrix here_;  // without entries where it is divided, or given by node and not used
   mutable std::shared_ptr<const SparseMatrix> nodes_;  // of one that is not divided, or null
   mutable std::shared_ptr<const DividedMatrix> divided_;
+  mutable SharedRowOrder order_;  // of one that was divided
 };
 
 /// w A X. In a process by itself it has the bits of Eigen's `w * (A * X)`, which are those of (w A)

@@ -21,15 +21,15 @@ bool is_missing(const SparseMatrix& A) { return A.nonZeros() == 0; }
 class Run {
  public:
   Run(const WholeVariables& of, std::span<const int> first_units, std::size_t place)
-      : of_(&of), neighbours_(first_units, place, own_) {
+      : of_(&of), order_of_rows_(of.order, 1), neighbours_(first_units, place, own_) {
     own_.width = 1;
   }
 
   void find_neighbours() {
     for_rows([this](int, const SparseMatrix& columns) {
       for (int i = own_.first; i < own_.first + own_.count; ++i) {
-        for (SparseMatrix::InnerIterator it(columns, i); it; ++it) {
-          neighbours_.add(i, static_cast<int>(it.row()));
+        for (SparseMatrix::InnerIterator it(columns, order_of_rows_.number(i)); it; ++it) {
+          neighbours_.add(i, row(static_cast<int>(it.row())));
         }
       }
     });
@@ -38,17 +38,16 @@ class Run {
   }
 
   void put(const RowMajorMatrix& N, base::BytesTo& put) const {
-    put_runs(own_, N, put);
+    put_runs(own_, N, of_->order, put);
     for_rows([&](int k, const SparseMatrix& columns) {
       put(k);
-      put_sparse(columns_at_places(columns, own_.first, own_.count, neighbours_), put);
+      put_sparse(columns_at_places(columns, own_, order_of_rows_, neighbours_), put);
     });
     put(kNoMore);
     put_nodes(put);
     for (const Matrix* columns : {of_->Phi, of_->P, of_->patterns}) {
-      const Matrix here = columns->rows() == 0
-                              ? Matrix(own_.count, 0)
-                              : Matrix(columns->middleRows(own_.first, own_.count));
+      const Matrix here =
+          columns->rows() == 0 ? Matrix(own_.count, 0) : rows_here(*columns, own_, order_of_rows_);
       put(static_cast<int>(here.rows()));
       put(static_cast<int>(here.cols()));
       put.all(here.data(), static_cast<std::size_t>(here.size()));
@@ -57,9 +56,13 @@ class Run {
 
  private:
   bool has_nodes() const { return of_->Ms != nullptr && !is_missing(*of_->Ms); }
-  const std::array<int, 3>& dofs(int node) const {
-    return (*of_->dofs)[static_cast<std::size_t>(node)];
+  /// Rows of the variables of a node, −1 where there is none.
+  std::array<int, 3> rows_of(int node) const {
+    std::array<int, 3> out = (*of_->dofs)[static_cast<std::size_t>(node)];
+    for (int& dof : out) dof = dof < 0 ? -1 : row(dof);
+    return out;
   }
+  int row(int variable) const { return order_of_rows_.unit(variable); }
 
   /// Calls f(3a + b, W_ba), whose columns are the rows of W_ab.
   template <class F>
@@ -76,20 +79,20 @@ class Run {
   /// Nodes with variables here, and those beside them.
   void find_nodes() {
     const SparseMatrix& Ms = *of_->Ms;
-    order_.assign(static_cast<std::size_t>(Ms.cols()), -1);
+    places_.assign(static_cast<std::size_t>(Ms.cols()), -1);
     for (int node = 0; node < Ms.cols(); ++node) {
       const bool is_own = std::ranges::any_of(
-          dofs(node), [this](int dof) { return dof >= 0 && neighbours_.is_here(dof); });
+          rows_of(node), [this](int row) { return row >= 0 && neighbours_.is_here(row); });
       if (is_own && SparseMatrix::InnerIterator(Ms, node)) nodes_.push_back(node);
     }
     num_own_ = nodes_.size();
     for (std::size_t k = 0; k < num_own_; ++k) {
-      order_[static_cast<std::size_t>(nodes_[k])] = static_cast<int>(k);
+      places_[static_cast<std::size_t>(nodes_[k])] = static_cast<int>(k);
     }
     for (std::size_t k = 0; k < num_own_; ++k) {
       for (SparseMatrix::InnerIterator it(Ms, nodes_[k]); it; ++it) {
         join(nodes_[k], static_cast<int>(it.row()));
-        int& at = order_[static_cast<std::size_t>(it.row())];
+        int& at = places_[static_cast<std::size_t>(it.row())];
         if (at >= 0) continue;
         at = static_cast<int>(nodes_.size());
         nodes_.push_back(static_cast<int>(it.row()));
@@ -99,10 +102,10 @@ class Run {
 
   /// All variables of a node go with each variable here of another.
   void join(int node, int other) {
-    for (const int own : dofs(node)) {
+    for (const int own : rows_of(node)) {
       if (own < 0 || !neighbours_.is_here(own)) continue;
-      for (const int dof : dofs(other)) {
-        if (dof >= 0) neighbours_.add(own, dof);
+      for (const int row : rows_of(other)) {
+        if (row >= 0) neighbours_.add(own, row);
       }
     }
   }
@@ -110,12 +113,12 @@ class Run {
   void put_nodes(base::BytesTo& put) const {
     put(static_cast<int>(nodes_.size()));
     for (const int node : nodes_) {
-      for (const int dof : dofs(node)) put(dof < 0 ? -1 : neighbours_.place_of(dof));
+      for (const int row : rows_of(node)) put(row < 0 ? -1 : neighbours_.place_of(row));
     }
     std::vector<Triplet> entries;
     for (std::size_t k = 0; k < num_own_; ++k) {
       for (SparseMatrix::InnerIterator it(*of_->Ms, nodes_[k]); it; ++it) {
-        entries.emplace_back(order_[static_cast<std::size_t>(it.row())], static_cast<int>(k),
+        entries.emplace_back(places_[static_cast<std::size_t>(it.row())], static_cast<int>(k),
                              it.value());
       }
     }
@@ -126,10 +129,11 @@ class Run {
   }
 
   const WholeVariables* of_;
+  UnitOrder order_of_rows_;
   RowTables own_;
   RowNeighbours neighbours_;
-  std::vector<int> nodes_;  // those with variables here first
-  std::vector<int> order_;  // place of each node there, −1: none
+  std::vector<int> nodes_;   // those with variables here first
+  std::vector<int> places_;  // place of each node there, −1: none
   std::size_t num_own_ = 0;
 };
 

@@ -17,16 +17,18 @@ namespace {
 
 std::shared_ptr<linalg::DividedVectors> vectors_of(const BodyStepOperator& op,
                                                    const body::FlexiblePart& part) {
+  const linalg::SharedRowOrder order = op.shared_factor()->row_order();
   if (const body::NodalMotion* nodal = op.nodal()) {
     return std::make_shared<linalg::DividedVectors>(
-        linalg::WholeNodes{&nodal->scalar_mass(), &nodal->positions(), &nodal->mass_moments()},
+        linalg::WholeNodes{&nodal->scalar_mass(), &nodal->positions(), &nodal->mass_moments(),
+                           order},
         part.rows);
   }
   const fem::ShapeIntegrals& shape = part.fe.shape;
   return std::make_shared<linalg::DividedVectors>(
       linalg::WholeVariables{&shape.W, shape.nodal.Ms.get(), &shape.nodal.dofs,
                              &part.sieve.stored_Phi(), &part.sieve.stored_P(),
-                             &part.invariants.stored_patterns()},
+                             &part.invariants.stored_patterns(), order},
       part.rows);
 }
 
@@ -47,7 +49,7 @@ std::shared_ptr<const DividedBody> DividedBody::make(const BodyStepOperator& op,
 
 DividedBody::DividedBody(const BodyStepOperator& op, const body::FlexiblePart& part,
                          const BodyResponses& responses)
-    : nodal_(op.nodal()), vectors_(vectors_of(op, part)) {
+    : nodal_(op.nodal()), order_(op.shared_factor()->row_order()), vectors_(vectors_of(op, part)) {
   if (nodal_ == nullptr) M_ = part.fe.M;
   if (op.inertial().is_damped() && !op.inertial().is_proportional()) C_ = part.C;
   const auto put_columns = [&](const linalg::Matrix& columns, std::vector<DividedVector>& out) {
@@ -61,11 +63,11 @@ DividedBody::DividedBody(const BodyStepOperator& op, const body::FlexiblePart& p
 }
 
 DividedVector DividedBody::multiply_mass(RowProgram& program, const DividedVector& x) const {
-  return nodal_ != nullptr ? program.multiply_mass(x) : program.multiply(M_.divide(), x);
+  return nodal_ != nullptr ? program.multiply_mass(x) : program.multiply(M_.divide(order_), x);
 }
 
 DividedVector DividedBody::multiply_damping(RowProgram& program, const DividedVector& x) const {
-  return program.multiply(C_.divide(), x);
+  return program.multiply(C_.divide(order_), x);
 }
 
 DividedBody::Vector6 DividedBody::rigid(const Vector& sums) const {

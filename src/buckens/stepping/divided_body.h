@@ -62,6 +62,7 @@ class DividedBody {
               const BodyResponses& responses);
 
   const body::NodalMotion* nodal_;  // null: variable by variable
+  linalg::SharedRowOrder order_;    // that of the factor, of all that is divided here
   // Copies: where M or C is brought here, their rows stay with the others, too.
   linalg::SymmetricMatrix M_, C_;
   std::shared_ptr<linalg::DividedVectors> vectors_;

@@ -41,7 +41,7 @@ FactorGroup::FactorGroup(const linalg::Factor& factor, const linalg::Vector& inv
     : factor_(&factor),
       exchange_(settings.exchange),
       left_(std::min(kLeftBySolve, kLeftPerTolerance * settings.outer_tolerance)),
-      kept_(inverse_diagonal, most_pairs(factor, inverse_diagonal, settings)) {}
+      kept_(inverse_diagonal, most_pairs(factor, inverse_diagonal, settings), factor.row_order()) {}
 
 void FactorGroup::add(FlexibleStep& body, std::size_t index) {
   body.index = index;

@@ -255,7 +255,7 @@ results::RunSummary SimulationRun::finish() {
   split_wall_time();
   summary_.end_time = state().t;
   statistics_->fill(*march_, summary_);
-  traffic_.fill(summary_);
+  traffic_.fill(built_.model, summary_);
   summary_.energy_account = work_->account(state());
   watch_->fill(state(), summary_);
   if (recording_) recording_->finish(summary_);

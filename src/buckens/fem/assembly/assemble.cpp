@@ -11,6 +11,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/fem/assembly/inertia_assembly.h"
 #include "buckens/fem/assembly/made_columns.h"
+#include "buckens/fem/assembly/mesh_division.h"
 #include "buckens/fem/assembly/node_rotations.h"
 #include "buckens/fem/assembly/solid_inertia.h"
 #include "buckens/fem/assembly/stiffness_assembly.h"
@@ -159,7 +160,8 @@ void set_mass_damping(FeModel& fe) {
 }
 
 /// Solids of a large mesh, which other processes integrate; the other blocks are left.
-std::optional<SolidInertia> solids_elsewhere(Blocks& blocks, const MeshView& mesh) {
+std::optional<SolidInertia> solids_elsewhere(Blocks& blocks, const MeshView& mesh,
+                                             const NodeParts& parts) {
   if (!linalg::is_shared_work(mesh.dofs.num_dofs)) return {};
   const auto solids = std::find_if(blocks.begin(), blocks.end(), [](const auto& block) {
     return block->is_solid() && block->num_elements() > 0;
@@ -167,7 +169,7 @@ std::optional<SolidInertia> solids_elsewhere(Blocks& blocks, const MeshView& mes
   if (solids == blocks.end()) return {};
   const auto taken = *solids;
   blocks.erase(solids);
-  return SolidInertia(solid_mass_made_elsewhere(taken, mesh.nodes), mesh.nodes);
+  return SolidInertia(solid_mass_made_elsewhere(taken, mesh.nodes, parts), mesh.nodes);
 }
 
 /// @return the part of M that is not in Σ W_aa
@@ -184,7 +186,7 @@ SparseMatrix integrate_inertia(Blocks blocks, const MeshView& mesh, FeModel& fe)
   shape.com = moment.first / moment.mass;
 
   const int n = mesh.dofs.num_dofs;
-  const std::optional<SolidInertia> solids = solids_elsewhere(blocks, mesh);
+  const std::optional<SolidInertia> solids = solids_elsewhere(blocks, mesh, fe.parts);
   AssembledInertia inertia = assemble_inertia(blocks, mesh, shape.com);
   InertiaSum& sum = inertia.sum;
   SparseMatrix& Ms = inertia.scalar_mass;
@@ -207,8 +209,9 @@ SparseMatrix integrate_inertia(Blocks blocks, const MeshView& mesh, FeModel& fe)
 }
 
 void let_others_make(const MeshView& mesh, FeModel& fe) {
-  fe.M = matrix_made_elsewhere(MeshMatrix::mass, fe.blocks, mesh);
-  fe.K = matrix_made_elsewhere(MeshMatrix::stiffness, fe.blocks, mesh);
+  const linalg::SharedRowOrder order = row_order(mesh.dofs, fe.parts);
+  fe.M = matrix_made_elsewhere(MeshMatrix::mass, fe.blocks, mesh, order);
+  fe.K = matrix_made_elsewhere(MeshMatrix::stiffness, fe.blocks, mesh, order);
   const bool is_damped = std::any_of(fe.blocks.begin(), fe.blocks.end(), [](const auto& block) {
     for (int e = 0; e < block->num_elements(); ++e) {
       const Material* material = block->material(e);
@@ -217,7 +220,7 @@ void let_others_make(const MeshView& mesh, FeModel& fe) {
     return false;
   });
   fe.K_damping = SparseMatrix(mesh.dofs.num_dofs, mesh.dofs.num_dofs);
-  if (is_damped) fe.K_damping = matrix_made_elsewhere(MeshMatrix::damping, fe.blocks, mesh);
+  if (is_damped) fe.K_damping = matrix_made_elsewhere(MeshMatrix::damping, fe.blocks, mesh, order);
 }
 
 }  // namespace
@@ -238,6 +241,7 @@ FeModel assemble(const Structure& structure, std::optional<spatial::Plane> plana
   fe.dofs = number_dofs(structure, fe.blocks, planar);
   const MeshView mesh{fe.nodes, fe.dofs};
   for (const auto& block : fe.blocks) block->check(mesh);
+  if (linalg::is_shared_work(fe.dofs.num_dofs)) fe.parts = divided_nodes(fe.blocks, mesh);
 
   const SparseMatrix flywheel = integrate_inertia(fe.blocks, mesh, fe);
   set_mass_damping(fe);

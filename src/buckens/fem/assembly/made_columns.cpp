@@ -11,6 +11,7 @@
 #include "buckens/fem/assembly/stress_rows.h"
 #include "buckens/linalg/counted_entries.h"
 #include "buckens/linalg/divided_matrix.h"
+#include "buckens/linalg/row_order.h"
 #include "buckens/linalg/shared_matrix.h"
 
 namespace buckens::fem {
@@ -42,16 +43,17 @@ SparseMatrix matrix_of(MeshMatrix which, const MeshPart& part) {
   return out;
 }
 
-/// The variables on which columns depend.
-std::vector<bool> variables_behind(int num_dofs, int first, int end, const Following* T) {
+/// The variables on which columns depend. @param is_asked of a variable that has a column
+template <class IsAsked>
+std::vector<bool> variables_behind(int num_dofs, const Following* T, IsAsked&& is_asked) {
   std::vector<bool> out(static_cast<std::size_t>(num_dofs), false);
-  if (T == nullptr) {
-    std::fill(out.begin() + first, out.begin() + end, true);
-    return out;
-  }
   for (int row = 0; row < num_dofs; ++row) {
+    if (T == nullptr) {
+      out[static_cast<std::size_t>(row)] = is_asked(row);
+      continue;
+    }
     for (Following::InnerIterator it(*T, row); it; ++it) {
-      if (it.col() >= first && it.col() < end) out[static_cast<std::size_t>(row)] = true;
+      if (is_asked(static_cast<int>(it.col()))) out[static_cast<std::size_t>(row)] = true;
     }
   }
   return out;
@@ -66,6 +68,62 @@ void put_following(const Following& T, const std::vector<int>& variables, base::
       put(it.value());
     }
   }
+}
+
+/// Columns of T that these rows have, ascending.
+std::vector<int> columns_of(const Following& T, const std::vector<int>& rows) {
+  std::vector<int> out;
+  for (const int row : rows) {
+    for (Following::InnerIterator it(T, row); it; ++it) out.push_back(static_cast<int>(it.col()));
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+/// Makes the rows of each column ascend.
+void sort_columns(SparseMatrix& A) {
+  std::vector<std::pair<int, double>> entries;
+  for (Eigen::Index k = 0; k < A.outerSize(); ++k) {
+    const int* rows = A.innerIndexPtr();
+    if (std::is_sorted(rows + A.outerIndexPtr()[k], rows + A.outerIndexPtr()[k + 1])) continue;
+    entries.clear();
+    for (SparseMatrix::InnerIterator it(A, k); it; ++it) {
+      entries.emplace_back(static_cast<int>(it.row()), it.value());
+    }
+    std::sort(entries.begin(), entries.end());
+    int place = A.outerIndexPtr()[k];
+    for (const auto& [row, value] : entries) {
+      A.innerIndexPtr()[place] = row;
+      A.valuePtr()[place++] = value;
+    }
+  }
+}
+
+struct Run {
+  int first, end;
+};
+
+/// Columns of a run of rows, from the diagonal on, of a matrix given by parts. The entries of A are
+/// those of its lower triangle, which are sums as in one process, on whichever side of the diagonal
+/// they are by rows.
+/// @param rows of the variables of A @param size of all rows
+SparseMatrix lower_triangle(const SparseMatrix& A, const std::vector<int>& rows, int size,
+                            const Run& run) {
+  const auto visit = [&](auto&& entry) {
+    for (int k = 0; k < A.outerSize(); ++k) {
+      for (SparseMatrix::InnerIterator it(A, k); it; ++it) {
+        if (it.row() < k) continue;
+        const auto [column, row] = std::minmax(rows[static_cast<std::size_t>(k)],
+                                               rows[static_cast<std::size_t>(it.row())]);
+        if (column < run.first || column >= run.end) continue;
+        entry(row, column - run.first, it.value());
+      }
+    }
+  };
+  SparseMatrix out = linalg::from_counted_entries(size, run.end - run.first, visit);
+  sort_columns(out);
+  return out;
 }
 
 /// Rows of T, its columns numbered among those that have entries here.
@@ -103,24 +161,33 @@ PartFollowing taken_following(std::size_t rows, base::BytesFrom& take) {
 
 std::vector<std::byte> description_of_columns(
     MeshMatrix which, const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
-    const MeshView& mesh, int first, int end, const Following* T) {
+    const MeshView& mesh, int first, int end, const linalg::RowOrder* order, const Following* T) {
+  const auto row = [order](int variable) {
+    return order != nullptr ? order->row(variable) : variable;
+  };
+  const auto is_asked = [&](int variable) { return row(variable) >= first && row(variable) < end; };
   base::BytesTo put;
   put(which);
   const std::vector<int> variables =
-      put_part(blocks, mesh, variables_behind(mesh.dofs.num_dofs, first, end, T), put);
+      put_part(blocks, mesh, variables_behind(mesh.dofs.num_dofs, T, is_asked), put);
   put(T != nullptr);
   if (T != nullptr) put_following(*T, variables, put);
+  put(order != nullptr);
+  if (order == nullptr) return put.take();
+  for (const int variable : T != nullptr ? columns_of(*T, variables) : variables) {
+    put(order->row(variable));
+  }
   return put.take();
 }
 
 linalg::SymmetricMatrix matrix_made_elsewhere(
     MeshMatrix which, const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
-    const MeshView& mesh, const Following* T) {
+    const MeshView& mesh, const linalg::SharedRowOrder& order, const Following* T) {
   const auto describe = [&](int first, int end) {
-    return description_of_columns(which, blocks, mesh, first, end, T);
+    return description_of_columns(which, blocks, mesh, first, end, order.get(), T);
   };
   return linalg::SymmetricMatrix(std::make_shared<const linalg::DividedMatrix>(
-      T != nullptr ? T->cols() : mesh.dofs.num_dofs, describe));
+      T != nullptr ? T->cols() : mesh.dofs.num_dofs, describe, order));
 }
 
 SparseMatrix made_columns(std::span<const std::byte> description, int first, int end) {
@@ -135,18 +202,9 @@ SparseMatrix made_columns(std::span<const std::byte> description, int first, int
     following = taken_following(part.variables.size(), take);
     A = condensed(A, following.T);
   }
-  const std::vector<int>& variables = follows ? following.columns : part.variables;
-  const auto visit = [&](auto&& entry) {
-    for (int k = 0; k < A.outerSize(); ++k) {
-      const int column = variables[static_cast<std::size_t>(k)];
-      if (column < first || column >= end) continue;
-      for (SparseMatrix::InnerIterator it(A, k); it; ++it) {
-        if (it.row() < k) continue;
-        entry(variables[static_cast<std::size_t>(it.row())], column - first, it.value());
-      }
-    }
-  };
-  return linalg::from_counted_entries(follows ? following.size : part.size, end - first, visit);
+  std::vector<int> rows = follows ? following.columns : part.variables;
+  if (take.next<bool>()) take.take_all(rows.data(), rows.size());
+  return lower_triangle(A, rows, follows ? following.size : part.size, {first, end});
 }
 
 SparseMatrix condensed(const SparseMatrix& A, const SparseMatrix& T) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "buckens/fem/assembly/made_columns.h"
+#include "buckens/fem/assembly/mesh_division.h"
 
 namespace buckens::fem {
 
@@ -44,9 +45,11 @@ void SolidInertia::add_moments(const DofMap& dofs, const Eigen::Vector3d& com,
 }
 
 linalg::SymmetricMatrix solid_mass_made_elsewhere(const std::shared_ptr<const ElementBlock>& solids,
-                                                  const std::vector<Node>& nodes) {
+                                                  const std::vector<Node>& nodes,
+                                                  const NodeParts& parts) {
   const DofMap numbers = one_per_node(nodes.size());
-  return matrix_made_elsewhere(MeshMatrix::scalar_mass, {solids}, {nodes, numbers});
+  return matrix_made_elsewhere(MeshMatrix::scalar_mass, {solids}, {nodes, numbers},
+                               row_order(numbers, parts));
 }
 
 DofMap one_per_node(std::size_t num_nodes) {

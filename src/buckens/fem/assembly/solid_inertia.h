@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "buckens/fem/element/block.h"
+#include "buckens/fem/element/node_parts.h"
 #include "buckens/fem/element/shape_integrals.h"
 #include "buckens/linalg/symmetric_matrix.h"
 
@@ -37,7 +38,8 @@ class SolidInertia {
 /// @pre linalg::is_shared_work() of its variables
 /// @throws NumericalError if a process cannot, with its reason
 linalg::SymmetricMatrix solid_mass_made_elsewhere(const std::shared_ptr<const ElementBlock>& solids,
-                                                  const std::vector<Node>& nodes);
+                                                  const std::vector<Node>& nodes,
+                                                  const NodeParts& parts);
 
 /// One variable per node, of the number of the node.
 DofMap one_per_node(std::size_t num_nodes);

@@ -33,6 +33,34 @@ void expect_columns(const SparseMatrix& found, const SparseMatrix& A, int first)
   }
 }
 
+/// An order in which neighbours are far apart, in three parts.
+linalg::RowOrder scattered(int variables) {
+  std::vector<int> part;
+  for (int k = 0; k < variables; ++k) part.push_back(k * k % 7 % 3);
+  return {part, 3};
+}
+
+/// That columns of a process are those of A in this order of rows, with the bits of its lower
+/// triangle.
+void expect_columns_in_order(const SparseMatrix& found, const SparseMatrix& A,
+                             const linalg::RowOrder& order, std::size_t process) {
+  const SparseMatrix kept = A.triangularView<Eigen::Lower>();
+  const SparseMatrix symmetric = kept.selfadjointView<Eigen::Lower>();
+  const SparseMatrix lower =
+      linalg::renumbered(symmetric, order.rows()).triangularView<Eigen::Lower>();
+  const int first = order.first_rows()[process];
+  const SparseMatrix expected = lower.middleCols(first, order.first_rows()[process + 1] - first);
+  ASSERT_EQ(found.cols(), expected.cols());
+  ASSERT_EQ(found.nonZeros(), expected.nonZeros());
+  for (int k = 0; k < found.cols(); ++k) {
+    SparseMatrix::InnerIterator it(found, k);
+    for (SparseMatrix::InnerIterator whole(expected, k); whole; ++whole, ++it) {
+      ASSERT_EQ(it.row(), whole.row()) << k;
+      ASSERT_EQ(it.value(), whole.value()) << k;
+    }
+  }
+}
+
 void expect_same_matrices(const Structure& s, std::optional<spatial::Plane> planar = std::nullopt) {
   const FeModel fe = assemble(s, planar);
   const MeshView mesh{fe.nodes, fe.dofs};
@@ -48,6 +76,14 @@ void expect_same_matrices(const Structure& s, std::optional<spatial::Plane> plan
       const SparseMatrix found = made_columns(description, runs[k], runs[k + 1]);
       ASSERT_EQ(found.cols(), runs[k + 1] - runs[k]);
       expect_columns(found, *matrices[static_cast<std::size_t>(which)], runs[k]);
+    }
+    const linalg::RowOrder order = scattered(n);
+    for (std::size_t k = 0; k + 1 < order.first_rows().size(); ++k) {
+      const int first = order.first_rows()[k];
+      const int end = order.first_rows()[k + 1];
+      const auto description = description_of_columns(which, fe.blocks, mesh, first, end, &order);
+      expect_columns_in_order(made_columns(description, first, end),
+                              *matrices[static_cast<std::size_t>(which)], order, k);
     }
   }
 }
@@ -207,8 +243,16 @@ void expect_same_matrices_of_those_that_follow(const FeModel& fe, const SparseMa
     const SparseMatrix expected = condensed(*matrices[static_cast<std::size_t>(which)], T);
     for (std::size_t k = 0; k + 1 < runs.size(); ++k) {
       const auto description =
-          description_of_columns(which, fe.blocks, mesh, runs[k], runs[k + 1], &rows);
+          description_of_columns(which, fe.blocks, mesh, runs[k], runs[k + 1], nullptr, &rows);
       expect_columns(made_columns(description, runs[k], runs[k + 1]), expected, runs[k]);
+    }
+    const linalg::RowOrder order = scattered(n);
+    for (std::size_t k = 0; k + 1 < order.first_rows().size(); ++k) {
+      const int first = order.first_rows()[k];
+      const int end = order.first_rows()[k + 1];
+      const auto description =
+          description_of_columns(which, fe.blocks, mesh, first, end, &order, &rows);
+      expect_columns_in_order(made_columns(description, first, end), expected, order, k);
     }
   }
 }

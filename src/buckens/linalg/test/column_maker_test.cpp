@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/linalg/column_maker.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -50,7 +53,16 @@ TEST(ColumnMaker, ContentOfRunsAddsUpToThatOfTheMatrix) {
   for (const auto& [first, end] : {std::pair{n / 3, n}, std::pair{0, n / 3}}) {
     const Made run = make(maker, 0, first, end);
     ASSERT_EQ(run.result, 0) << run.error;
-    maker.add_content(first, end, &run.columns, sum.data());
+    // Places of rows: the columns come first.
+    std::vector<int> variables(static_cast<std::size_t>(n));
+    std::iota(variables.begin(), variables.end(), 0);
+    std::rotate(variables.begin(), variables.begin() + first, variables.end());
+    std::vector<int> places;
+    for (int e = 0; e < run.columns.starts[end - first]; ++e) {
+      places.push_back((run.columns.rows[e] - first + n) % n);
+    }
+    const BuckensGridColumns columns{run.columns.starts, places.data(), run.columns.values};
+    maker.add_content(end - first, &columns, variables.data(), sum.data());
   }
   EXPECT_EQ(sum[0], A.content()[0]);
   EXPECT_EQ(sum[1], A.content()[1]);

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "buckens/linalg/row_order.h"
 #include "buckens/linalg/row_worker.h"
 
 namespace buckens::linalg {
@@ -72,9 +73,12 @@ class RowThreads {
   static constexpr int kSpace = 7;
 
   /// @param first_rows of the threads, and the end @param describe describe_rows() of a thread
+  /// @param order of the rows; null: they are variables
   template <class Describe>
-  RowThreads(std::vector<int> first_rows, Describe&& describe)
-      : first_rows_(std::move(first_rows)), workers_(first_rows_.size() - 1) {
+  RowThreads(std::vector<int> first_rows, Describe&& describe, SharedRowOrder order = {})
+      : first_rows_(std::move(first_rows)),
+        order_(std::move(order)),
+        workers_(first_rows_.size() - 1) {
     for (std::size_t k = 0; k < workers_.size(); ++k) {
       base::BytesTo put;
       describe(k, put);
@@ -86,7 +90,12 @@ class RowThreads {
   }
 
   RowWorker& worker(std::size_t k) { return workers_[k]; }
-  void put(int vector, const Vector& x) {
+  void put(int vector, const Vector& of_variables) {
+    Vector x = of_variables;
+    if (order_) {
+      const std::vector<double> rows = order_->by_rows(of_variables.data());
+      std::copy(rows.begin(), rows.end(), x.begin());
+    }
     for (std::size_t k = 0; k < workers_.size(); ++k) {
       const std::span<double> rows = workers_[k].rows(kSpace, vector);
       std::copy_n(x.data() + first_rows_[k], rows.size(), rows.begin());
@@ -94,10 +103,12 @@ class RowThreads {
   }
   Vector whole(int vector) {
     Vector out(first_rows_.back());
-    for (std::size_t k = 0; k < workers_.size(); ++k) {
-      const std::span<const double> rows = workers_[k].rows(kSpace, vector);
-      std::copy(rows.begin(), rows.end(), out.data() + first_rows_[k]);
-    }
+    fill_by_rows(order_, out.data(), [&](double* all) {
+      for (std::size_t k = 0; k < workers_.size(); ++k) {
+        const std::span<const double> rows = workers_[k].rows(kSpace, vector);
+        std::copy(rows.begin(), rows.end(), all + first_rows_[k]);
+      }
+    });
     return out;
   }
   template <class... Numbers>
@@ -135,6 +146,7 @@ class RowThreads {
   }
 
   std::vector<int> first_rows_;
+  SharedRowOrder order_;
   std::vector<RowWorker> workers_;
   std::vector<ThreadPairs> pairs_;
 };

@@ -31,8 +31,15 @@ RowMajorMatrix some_rows(int size) {
   return N;
 }
 
-/// A body of which three workers have the rows, in runs of different lengths.
-class RowsOfABody : public testing::Test {
+SharedRowOrder scattered(int nodes) {
+  std::vector<int> part;
+  for (int node = 0; node < nodes; ++node) part.insert(part.end(), 3, node * node % 7 % 3);
+  return std::make_shared<const RowOrder>(part, 3);
+}
+
+/// A body of which three workers have the rows, in runs of different lengths: as nodes are
+/// numbered, or in an order in which neighbours are apart.
+class RowsOfABody : public testing::TestWithParam<bool> {
  protected:
   RowsOfABody() {
     put(0, d);
@@ -59,39 +66,44 @@ class RowsOfABody : public testing::Test {
   Eigen::Matrix4Xd positions = Eigen::Matrix4Xd::Random(4, nodes());
   Eigen::Matrix4Xd first_moments = Eigen::Matrix4Xd::Random(4, nodes());
   RowMajorMatrix N = some_rows(size());
-  std::vector<int> first_nodes = {0, nodes() / 5, nodes() / 2, nodes()};
+  SharedRowOrder order = GetParam() ? scattered(nodes()) : nullptr;
+  std::vector<int> first_rows =
+      order ? order->first_rows() : std::vector{0, 3 * (nodes() / 5), 3 * (nodes() / 2), size()};
   RowThreads threads{
-      {0, 3 * first_nodes[1], 3 * first_nodes[2], size()},
+      first_rows,
       [this](std::size_t k, base::BytesTo& put) {
-        describe_rows(WholeNodes{&Ms, &positions, &first_moments}, N, first_nodes, k, put);
-      }};
+        std::vector<int> first_nodes = first_rows;
+        for (int& first : first_nodes) first /= 3;
+        describe_rows(WholeNodes{&Ms, &positions, &first_moments, order}, N, first_nodes, k, put);
+      },
+      order};
   Vector d = random(1), rate = random(2), acceleration = random(3);
 };
 
-TEST_F(RowsOfABody, CombinesAndAdds) {
+TEST_P(RowsOfABody, CombinesAndAdds) {
   run(program(RowTask::combine, 3, false, 2, 0.5, 0, -2.0, 1, RowTask::combine, 3, true, 1, 4.0,
               2));
   EXPECT_LE((whole(3) - (0.5 * d - 2.0 * rate + 4.0 * acceleration)).norm(), kOfOtherOrder);
 }
 
-TEST_F(RowsOfABody, AnEmptySumIsZero) {
+TEST_P(RowsOfABody, AnEmptySumIsZero) {
   run(program(RowTask::combine, 3, false, 1, 1.0, 0, RowTask::combine, 3, false, 0));
   EXPECT_EQ(whole(3), Vector::Zero(size()));
 }
 
-TEST_F(RowsOfABody, MultipliesByMassAcrossBorders) {
+TEST_P(RowsOfABody, MultipliesByMassAcrossBorders) {
   run(program(RowTask::multiply_mass, 3, 0));
   Vector expected(size());
   multiply_by_node(Ms, d.data(), expected.data());
   EXPECT_LE((whole(3) - expected).norm(), kOfOtherOrder * expected.norm());
 }
 
-TEST_F(RowsOfABody, MultipliesByMatricesOfTheOthers) {
+TEST_P(RowsOfABody, MultipliesByMatricesOfTheOthers) {
   run(program(RowTask::multiply, 3, 1, 4));
   EXPECT_EQ(whole(3), 4.0 * rate);
 }
 
-TEST_F(RowsOfABody, CouplesAcrossBorders) {
+TEST_P(RowsOfABody, CouplesAcrossBorders) {
   std::array<double, kCoupleWeights> weights{};
   for (std::size_t k = 0; k < weights.size(); ++k) {
     weights[k] = k % 4 == 3 ? 0.0 : 0.1 * static_cast<double>(k) - 1.0;
@@ -113,7 +125,7 @@ TEST_F(RowsOfABody, CouplesAcrossBorders) {
   }
 }
 
-TEST_F(RowsOfABody, CouplesWithoutLoads) {
+TEST_P(RowsOfABody, CouplesWithoutLoads) {
   base::BytesTo put = program(RowTask::couple, -1, 0, 1, 2);
   const std::array<double, kCoupleWeights> none{};
   put.all(none.data(), none.size());
@@ -123,7 +135,7 @@ TEST_F(RowsOfABody, CouplesWithoutLoads) {
   EXPECT_NEAR(sums[0] + sums[5] + sums[10], Md.dot(d), kOfOtherOrder * Md.norm() * d.norm());
 }
 
-TEST_F(RowsOfABody, SubtractsMotionsAndSumsMoments) {
+TEST_P(RowsOfABody, SubtractsMotionsAndSumsMoments) {
   const Eigen::Matrix4d T = Eigen::Matrix4d::Random();
   base::BytesTo put = program(RowTask::combine, 3, false, 1, 1.0, 0, RowTask::subtract, 3);
   put.all(T.data(), kMotionNumbers);
@@ -138,13 +150,13 @@ TEST_F(RowsOfABody, SubtractsMotionsAndSumsMoments) {
   EXPECT_LE((found.topRows<3>() - moments).norm(), kOfOtherOrder * moments.norm());
 }
 
-TEST_F(RowsOfABody, MultipliesByInterfaceRows) {
+TEST_P(RowsOfABody, MultipliesByInterfaceRows) {
   const Vector sums = total(run(program(RowTask::row_products, 2, 0, 2)));
   EXPECT_LE((sums.head(5) - N * d).norm(), kOfOtherOrder);
   EXPECT_LE((sums.tail(5) - N * acceleration).norm(), kOfOtherOrder);
 }
 
-TEST_F(RowsOfABody, ComparesAndTotals) {
+TEST_P(RowsOfABody, ComparesAndTotals) {
   put(4, random(4).cwiseAbs());
   const Vector weights = whole(4);
   put(5, 2.0 * weights);
@@ -159,7 +171,7 @@ TEST_F(RowsOfABody, ComparesAndTotals) {
   EXPECT_NEAR(added[3], d.sum() + rate.sum(), kOfOtherOrder * size());
 }
 
-TEST_F(RowsOfABody, MemoryOfDroppedVectorsIsUsedAgain) {
+TEST_P(RowsOfABody, MemoryOfDroppedVectorsIsUsedAgain) {
   const double* before = threads.worker(0).rows(RowThreads::kSpace, 2).data();
   run(program(RowTask::drop, 2, RowTask::combine, 9, false, 0));
   EXPECT_EQ(threads.worker(0).rows(RowThreads::kSpace, 9).data(), before);
@@ -167,6 +179,10 @@ TEST_F(RowsOfABody, MemoryOfDroppedVectorsIsUsedAgain) {
   threads.worker(0).remove(RowThreads::kSpace);
   EXPECT_EQ(threads.worker(0).num_vectors(), 0U);
 }
+
+INSTANTIATE_TEST_SUITE_P(Orders, RowsOfABody, testing::Bool(), [](const auto& is_scattered) {
+  return is_scattered.param ? "Scattered" : "AsNumbered";
+});
 
 }  // namespace
 }  // namespace buckens::linalg

@@ -44,7 +44,8 @@ std::vector<std::array<int, 3>> scattered_dofs(int nodes, int size) {
   return out;
 }
 
-class RowsOfVariables : public testing::Test {
+/// As variables are numbered, or in an order in which neighbours are apart.
+class RowsOfVariables : public testing::TestWithParam<bool> {
  protected:
   static constexpr int kSize = 331;
 
@@ -54,6 +55,11 @@ class RowsOfVariables : public testing::Test {
     threads.put(2, acceleration);
   }
 
+  static SharedRowOrder scattered() {
+    std::vector<int> part;
+    for (int k = 0; k < kSize; ++k) part.push_back(k * k % 7 % 3);
+    return std::make_shared<const RowOrder>(part, 3);
+  }
   static Vector random(int seed) {
     std::srand(static_cast<unsigned>(seed));
     return Vector::Random(kSize);
@@ -84,15 +90,18 @@ class RowsOfVariables : public testing::Test {
   Matrix Phi = Matrix::Random(kSize, 5), P = Matrix::Random(kSize, 5);
   Matrix patterns = Matrix::Random(kSize, 6);
   RowMajorMatrix N = RowMajorMatrix(0, kSize);
-  std::vector<int> first = {0, 50, 160, kSize};
+  SharedRowOrder order = GetParam() ? scattered() : nullptr;
+  std::vector<int> first = order ? order->first_rows() : std::vector{0, 50, 160, kSize};
   RowThreads threads{
-      first, [this](std::size_t k, base::BytesTo& put) {
-        describe_rows(WholeVariables{&W, &Ms, &dofs, &Phi, &P, &patterns}, N, first, k, put);
-      }};
+      first,
+      [this](std::size_t k, base::BytesTo& put) {
+        describe_rows(WholeVariables{&W, &Ms, &dofs, &Phi, &P, &patterns, order}, N, first, k, put);
+      },
+      order};
   Vector d = random(1), rate = random(2), acceleration = random(3);
 };
 
-TEST_F(RowsOfVariables, CoupleAcrossBorders) {
+TEST_P(RowsOfVariables, CoupleAcrossBorders) {
   const Eigen::Matrix3d A = Eigen::Matrix3d::Random(), B = Eigen::Matrix3d::Random();
   Eigen::Matrix<double, 4, 6> weights = Eigen::Matrix<double, 4, 6>::Zero();
   weights.topRows<3>() << A, B;
@@ -115,7 +124,7 @@ TEST_F(RowsOfVariables, CoupleAcrossBorders) {
   EXPECT_LE((threads.whole(3) - load).norm(), kOfOtherSum * load.norm());
 }
 
-TEST_F(RowsOfVariables, CoupleWithoutLoads) {
+TEST_P(RowsOfVariables, CoupleWithoutLoads) {
   base::BytesTo put = RowThreads::program(RowTask::couple, -1, 0, 1, 2);
   const std::array<double, kCoupleWeights> none{};
   put.all(none.data(), none.size());
@@ -123,7 +132,7 @@ TEST_F(RowsOfVariables, CoupleWithoutLoads) {
   EXPECT_NEAR(sums[4 * 4 + 2], d.dot(integral(2, 1) * rate), kOfOtherSum * kSize);
 }
 
-TEST_F(RowsOfVariables, SubtractMotionsAndSumMoments) {
+TEST_P(RowsOfVariables, SubtractMotionsAndSumMoments) {
   std::array<double, kMotionNumbers> motion{};
   for (std::size_t k = 0; k < 5; ++k) motion[k] = 0.3 * static_cast<double>(k) - 0.7;
   base::BytesTo put =
@@ -140,11 +149,15 @@ TEST_F(RowsOfVariables, SubtractMotionsAndSumMoments) {
             kOfOtherSum * kSize);
 }
 
-TEST_F(RowsOfVariables, DoNotActByNode) {
+TEST_P(RowsOfVariables, DoNotActByNode) {
   const VariableTables none;
   const VariableInertia inertia(none, 0);
   EXPECT_THROW(inertia.multiply_mass(nullptr, nullptr), NumericalError);
 }
+
+INSTANTIATE_TEST_SUITE_P(Orders, RowsOfVariables, testing::Bool(), [](const auto& is_scattered) {
+  return is_scattered.param ? "Scattered" : "AsNumbered";
+});
 
 }  // namespace
 }  // namespace buckens::linalg
