@@ -99,8 +99,8 @@ target_link_libraries(kept_by_disk PRIVATE buckens_common ${CMAKE_DL_LIBS})
 # which ctest starts the longest first and both processors end together. A number need not be kept exact.
 set(BUCKENS_LONG_TESTS
     continue 28 damaged_results 13 docs_commands 17 docs_site 30 example_warnings 32 examples 8 kill 38 machine_methods 11 mesh_contact 8
-    mesh_pairs 10 mpi 60 mpi_vectors 10 packages 11 python 5 python_arrays 5 python_examples 13 python_memory 5 python_mistakes 5
-    python_package 12 python_results 8 python_signals 5 python_verbs 5 rigid_group_statics 14 rigid_towers 21 run 11
+    mesh_pairs 10 mpi 60 mpi_division 30 mpi_matrices 50 mpi_modes 50 mpi_vectors 10 packages 11 python 5 python_arrays 5
+    python_examples 13 python_memory 5 python_mistakes 5 python_package 12 python_results 8 python_signals 5 python_verbs 5 rigid_group_statics 14 rigid_towers 21 run 11
     save_state 27 shards 5 solver 14 step_bodies 8 step_parts 45 study_dask 14 study_runs 20 study_samples 5)
 # Others share a process: to start Python with pytest and NumPy takes longer than most of them. Six take some eight seconds.
 set(BUCKENS_FILES_PER_PROCESS 6)
@@ -151,7 +151,7 @@ if(together)
 endif()
 # Processes that wait for each other: beside other tests they would wait for processors, too. What needs all processors
 # comes first, or the others would have to wait for it at the end.
-foreach(test cli.mpi cli.mpi_vectors)
+foreach(test cli.mpi cli.mpi_division cli.mpi_matrices cli.mpi_modes cli.mpi_vectors)
   if(TEST ${test})
     set_tests_properties(${test} PROPERTIES PROCESSORS 2 COST 1000)
   endif()

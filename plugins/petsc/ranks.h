@@ -173,6 +173,7 @@ class Ranks {
   bool put_rows_together(const Order& order, const double* values);
   void take_rows_together(const Order& order, double* values);
   bool solve_rows_together(const Order& order);
+  bool solve_by(Part& part, Way& way, const double* b, double* x);
   bool partition_together(const Order& order, const BuckensGridMesh* mesh, int* part);
   bool send_mesh(const BuckensGridMesh& mesh, const std::vector<int>& first);
   bool receive_mesh(int nodes, SomeElements& elements, MeshShare& own);

@@ -91,12 +91,7 @@ void Ranks::describe_modes(const Order& order, const BuckensGridModes& modes, Wa
     for (int k = 0; k < here; ++k) y[k] += shift * inertia[static_cast<std::size_t>(k)];
   };
   problem.solve = [this, &part, &way](const double* b, double* x) {
-    way.bring(b, part.b.data());
-    const bool has_failed = !part.factor->solve(part.b.data(), part.x.data());
-    way.give_back(part.x.data(), x, false);
-    count_messages(2 * (count_ - 1), 0);
-    traffic_.bytes += 2.0 * sizeof(double) * static_cast<double>(way.in.size());  // of the first's
-    return !has_failed_somewhere(has_failed);
+    return solve_by(part, way, b, x);
   };
 }
 

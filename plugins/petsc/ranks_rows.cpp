@@ -200,7 +200,11 @@ bool Ranks::solve_rows_together(const Order& order) {
     const Runs& runs = shared_->runs.at(order.number);
     part.way = std::make_unique<Way>(part.factor->variables(), runs.first.data(), work_);
   }
-  Way& way = *part.way;
+  return solve_by(part, *part.way, b, x);
+}
+
+/// x = A⁻¹ b of vectors of which the others have rows. @param way from these to those of the factor
+bool Ranks::solve_by(Part& part, Way& way, const double* b, double* x) {
   way.bring(b, part.b.data());
   const bool has_failed = !part.factor->solve(part.b.data(), part.x.data());
   way.give_back(part.x.data(), x, false);
