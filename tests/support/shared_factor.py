@@ -14,7 +14,7 @@ INT, DOUBLE, FLOAT = (ctypes.POINTER(kind) for kind in (ctypes.c_int, ctypes.c_d
 
 
 # Of src/buckens/linalg/grid_plugin.h, whose structures stand below.
-VERSION = 10
+VERSION = 11
 
 
 class Columns(ctypes.Structure):
@@ -27,14 +27,23 @@ GIVE = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_int, ctypes.c_int, ctype
 class Matrix(ctypes.Structure):
     _fields_ = [("size", ctypes.c_int), ("all", Columns), ("give", GIVE), ("source", ctypes.c_void_p), ("block", ctypes.c_int),
                 ("num_motions", ctypes.c_int), ("motions", DOUBLE), ("options", ctypes.c_char_p), ("order", INT),
-                ("terms", INT), ("weights", DOUBLE), ("num_terms", ctypes.c_int)]
+                ("terms", INT), ("weights", DOUBLE), ("num_terms", ctypes.c_int), ("is_indefinite", INT)]
+
+
+class Rows(ctypes.Structure):
+    _fields_ = [("first", INT), ("variables", INT)]
+
+
+class Mesh(ctypes.Structure):
+    _fields_ = [("num_nodes", ctypes.c_int), ("weights", INT), ("num_elements", ctypes.c_long), ("starts", ctypes.POINTER(ctypes.c_long)),
+                ("nodes", INT)]
 
 
 class Facts(ctypes.Structure):
     _fields_ = [("entries", ctypes.c_long), ("square_norm", ctypes.c_double), ("content", ctypes.c_ulonglong * 2)]
 
 
-ADD_CONTENT = ctypes.CFUNCTYPE(None, ctypes.c_int, ctypes.c_int, ctypes.POINTER(Columns), ctypes.POINTER(ctypes.c_ulonglong))
+ADD_CONTENT = ctypes.CFUNCTYPE(None, ctypes.c_int, ctypes.POINTER(Columns), INT, ctypes.POINTER(ctypes.c_ulonglong))
 
 
 class Maker(ctypes.Structure):
@@ -61,8 +70,8 @@ class Plugin(ctypes.Structure):
                 ("bytes", ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_void_p)), ("release", ctypes.CFUNCTYPE(None, ctypes.c_void_p)),
                 ("join", ctypes.CFUNCTYPE(None, INT, INT)), ("serve", ctypes.CFUNCTYPE(None, ctypes.POINTER(Maker))), ("leave", ctypes.CFUNCTYPE(None)),
                 ("traffic", ctypes.c_void_p),
-                ("divide", ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_int, ctypes.POINTER(Columns), ctypes.POINTER(Facts), ctypes.c_char_p,
-                                            ctypes.c_int)),
+                ("divide", ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_int, ctypes.POINTER(Rows), ctypes.POINTER(Columns), ctypes.POINTER(Facts),
+                                            ctypes.c_char_p, ctypes.c_int)),
                 ("divide_rows", ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_int, ctypes.c_int, ctypes.POINTER(Columns), ctypes.c_char_p,
                                                  ctypes.c_int)),
                 ("make_rows", ctypes.c_void_p), ("make_columns", ctypes.c_void_p), ("add_up", ctypes.c_void_p),
@@ -70,13 +79,15 @@ class Plugin(ctypes.Structure):
                 ("inner_product", ctypes.c_void_p), ("diagonal", ctypes.c_void_p), ("near_diagonal", ctypes.c_void_p), ("marks", ctypes.c_void_p), ("edges", ctypes.c_void_p),
                 ("gather", ctypes.CFUNCTYPE(None, ctypes.c_int, INT, INT, DOUBLE)),
                 ("forget", ctypes.CFUNCTYPE(None, ctypes.c_int)),
-                ("make_pairs", ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_int, ctypes.c_int, ctypes.c_char_p, ctypes.c_int)),
+                ("make_pairs", ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_int, ctypes.POINTER(Rows), ctypes.c_int, ctypes.c_char_p, ctypes.c_int)),
                 ("project", ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_int, ctypes.c_int, FLOAT, FLOAT)),
                 ("combine", ctypes.CFUNCTYPE(None, ctypes.c_int, ctypes.c_int, FLOAT, FLOAT)),
                 ("put_pair", ctypes.CFUNCTYPE(None, ctypes.c_int, ctypes.c_int, FLOAT, FLOAT)),
                 ("take_pair", ctypes.CFUNCTYPE(None, ctypes.c_int, ctypes.c_int, FLOAT, FLOAT)),
                 ("runs", ctypes.c_void_p), ("begin_rows", ctypes.c_void_p), ("work_rows", ctypes.c_void_p), ("put_rows", ctypes.c_void_p),
-                ("take_rows", ctypes.c_void_p), ("solve_rows", ctypes.c_void_p)]
+                ("take_rows", ctypes.c_void_p), ("solve_rows", ctypes.c_void_p),
+                ("partition", ctypes.CFUNCTYPE(ctypes.c_int, ctypes.POINTER(Mesh), INT, ctypes.c_char_p, ctypes.c_int)),
+                ("find_modes", ctypes.c_void_p)]
 
 
 def column_giver(negative):
@@ -124,7 +135,7 @@ def factorise(plugin, negative):
 
 
 def run(plugin_file, work):
-    """Calls work(plugin) on the first process, while the others serve."""
+    """Calls work(plugin, number of processes) on the first one, while the others serve."""
     library = ctypes.CDLL(plugin_file)
     library.buckens_grid_plugin.restype = ctypes.POINTER(Plugin)
     plugin = library.buckens_grid_plugin()[0]
@@ -133,12 +144,12 @@ def run(plugin_file, work):
     rank, count = ctypes.c_int(), ctypes.c_int()
     plugin.join(ctypes.byref(rank), ctypes.byref(count))
     if rank.value > 0:
-        maker = Maker(add_content=ADD_CONTENT(lambda first, end, columns, content: None))
+        maker = Maker(add_content=ADD_CONTENT(lambda count, columns, variables, content: None))
         plugin.serve(ctypes.byref(maker))
         return
-    work(plugin)
+    work(plugin, count.value)
     plugin.leave()
 
 
 if __name__ == "__main__":
-    run(sys.argv[1], lambda plugin: factorise(plugin, int(sys.argv[2]) if len(sys.argv) > 2 else None))
+    run(sys.argv[1], lambda plugin, _: factorise(plugin, int(sys.argv[2]) if len(sys.argv) > 2 else None))
