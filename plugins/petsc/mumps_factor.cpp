@@ -11,8 +11,6 @@
 #include "process_memory.h"
 #include "reasons.h"
 
-#include "buckens/linalg/grid_plugin.h"
-
 namespace buckens_petsc {
 
 namespace {

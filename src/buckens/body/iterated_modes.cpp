@@ -12,6 +12,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/body/dense_free_modes.h"
+#include "buckens/body/shift_search.h"
 #include "buckens/linalg/cholmod_factor.h"
 
 namespace buckens::body {
@@ -22,10 +23,6 @@ using linalg::Vector;
 
 namespace {
 
-// A shift more than this many times the lowest ω² slows the iteration down.
-constexpr double kSlow = 30.0;
-constexpr double kOverRounding = 1e-13;  // μ against the largest ω²
-constexpr int kMostShifts = 12;
 constexpr int kRestarts = 300;  // of Lanczos
 // A factor takes right-hand sides in fours (linalg::side_multiple()): six cost as much as eight.
 constexpr int kBlock = 8;
@@ -123,42 +120,36 @@ IteratedModes iterate_modes(const SymmetricMatrix& M, const Sieve& sieve, ModeOp
 IteratedModes iterate_with_shift(const SymmetricMatrix& M, const SymmetricMatrix& K,
                                  const Sieve& sieve, double first_shift, int count,
                                  double tolerance, const linalg::MakeFactor& make) {
-  const double least = kOverRounding * highest_square(M, K);
-  double shift = std::max(first_shift, least);
-  double drowned = 0.0;  // largest shift that did not work
+  ShiftSearch search(first_shift, highest_square(M, K));
   long solves = 0;
   linalg::InverseIterationSettings settings = settings_for(count, tolerance);
-  for (int attempt = 1; attempt <= kMostShifts; ++attempt) {
+  for (;;) {
+    const double shift = search.shift();
     std::optional<ModeOperator> op;
     try {
       op = sieved_operator(M, K, sieve, shift, make);
     } catch (const linalg::IndefiniteMatrix&) {
-      if (attempt == kMostShifts) throw;
-      drowned = shift;
-      shift *= 30.0;
+      if (!search.raise()) throw;
       continue;
     }
-    double next = 0.0;
-    const double lowest_useful = std::max(least, 10.0 * drowned);
+    std::optional<double> far_below;  // the lowest ω² where the shift is too high
     settings.is_worthwhile = [&](double theta) {
       const double square = 1.0 / theta - shift;
-      if (square * kSlow > shift || shift <= lowest_useful) return true;
-      next = std::max(lowest_useful, std::max(0.3 * square, 1e-3 * shift));
-      return false;
+      if (search.is_too_high(square)) far_below = square;
+      return !far_below.has_value();
     };
-    if (attempt == kMostShifts) settings.is_worthwhile = nullptr;
     settings.pool = op->pool.get();
     const linalg::InversePairs pairs =
         linalg::largest_inverse_pairs(M, op->inverse, Matrix(M.rows(), 0), settings);
     solves += pairs.solves;
-    if (next > 0.0) {
-      shift = next;
+    if (far_below) {
+      search.lower(*far_below);
       continue;
     }
     check_complete(pairs, count);
-    return {elastic_modes(pairs, sieve, *op, count), std::move(*op), pairs.sweeps, solves, attempt};
+    return {elastic_modes(pairs, sieve, *op, count), std::move(*op), pairs.sweeps, solves,
+            search.attempt()};
   }
-  throw NumericalError("free vibration: no shift makes K + μM positive definite; check the masses");
 }
 
 IteratedModes lanczos_modes(const SymmetricMatrix& M, ModeOperator op, int count,

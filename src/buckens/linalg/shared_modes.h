@@ -20,7 +20,7 @@ struct DividedPencil {
 /// of M are; shapes come to this process when they are found. `sweeps` are restarts.
 ///
 /// Multiple eigenvalues: searches without what is found follow until one finds nothing that is
-/// wanted, so any multiplicity is found completely.
+/// wanted. That none is missing holds as far as searches from other vectors tell.
 /// @param factor of the plug-in, of A
 /// @return fewer pairs, and not complete, if the search does not converge
 /// @throws NumericalError if it fails, with the reason

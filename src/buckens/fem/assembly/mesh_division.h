@@ -11,8 +11,8 @@
 namespace buckens::fem {
 
 /// Divides the nodes of a mesh among the processes other than the first, so that neighbours are
-/// together wherever that is possible: numbers of nodes say nothing about places. Empty where
-/// there is only one such process.
+/// together wherever that is possible: numbers of nodes say nothing about places. Elements join
+/// nodes, links do not. Empty where there is only one such process.
 /// @pre linalg::is_shared_work()
 /// @throws NumericalError if memory is too small
 NodeParts divided_nodes(const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
