@@ -125,10 +125,11 @@ int plugin_divide_rows(int rows, int columns, const BuckensGridColumns* all, cha
   });
 }
 
-int plugin_make_rows(int rows, int columns, const BuckensGridDescription* of, char* error,
-                     int error_size) {
-  return number_of(error, error_size,
-                   [&](Ranks& all_of_them) { return all_of_them.make_rows(rows, columns, *of); });
+int plugin_make_rows(int rows, int columns, const BuckensGridRows* runs,
+                     const BuckensGridDescription* of, char* error, int error_size) {
+  return number_of(error, error_size, [&](Ranks& all_of_them) {
+    return all_of_them.make_rows(rows, columns, *runs, *of);
+  });
 }
 
 int plugin_make_columns(int size, const BuckensGridRows* rows, const BuckensGridDescription* of,

@@ -56,7 +56,8 @@ class Ranks {
   /// The same of a matrix of any shape, given by rows.
   int divide_rows(int rows, int columns, const BuckensGridColumns& all);
   /// The same of one whose rows the others make.
-  int make_rows(int rows, int columns, const BuckensGridDescription& of);
+  int make_rows(int rows, int columns, const BuckensGridRows& runs,
+                const BuckensGridDescription& of);
   /// y_k = A_k x_k
   void multiply(int count, const int* matrices, const double* const* x, double* const* y);
   /// Of the first: see BuckensGridPlugin.

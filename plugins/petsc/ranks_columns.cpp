@@ -15,10 +15,11 @@ int Ranks::make_columns(int size, const BuckensGridRows& rows, const BuckensGrid
   return make_columns_together(order, &rows, &of, facts) ? order.number : -1;
 }
 
-int Ranks::make_rows(int rows, int columns, const BuckensGridDescription& of) {
-  const Order order = give_new(Task::make_rows, rows, columns);
+int Ranks::make_rows(int rows, int columns, const BuckensGridRows& runs,
+                     const BuckensGridDescription& of) {
+  const Order order = give_new(Task::make_rows, rows, columns, &runs);
   BuckensGridFacts facts{};
-  return make_columns_together(order, nullptr, &of, facts) ? order.number : -1;
+  return make_columns_together(order, &runs, &of, facts) ? order.number : -1;
 }
 
 /// A process makes its columns while the first describes those of the next.

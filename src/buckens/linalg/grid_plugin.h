@@ -7,7 +7,7 @@
 extern "C" {
 
 /// Rises with every change of what stands here.
-enum { kBuckensGridVersion = 11 };
+enum { kBuckensGridVersion = 12 };
 
 /// Products that one order may ask for.
 enum { kBuckensMostProducts = 8 };
@@ -178,8 +178,9 @@ struct BuckensGridPlugin {
   int (*divide_rows)(int rows, int columns, const BuckensGridColumns* all, char* error,
                      int error_size);
   /// The same of a matrix whose rows the other processes make: columns for the maker.
-  int (*make_rows)(int rows, int columns, const BuckensGridDescription* of, char* error,
-                   int error_size);
+  /// @param runs of the rows
+  int (*make_rows)(int rows, int columns, const BuckensGridRows* runs,
+                   const BuckensGridDescription* of, char* error, int error_size);
   /// As divide(), of a symmetric matrix whose columns the other processes make.
   int (*make_columns)(int size, const BuckensGridRows* rows, const BuckensGridDescription* of,
                       BuckensGridFacts* facts, char* error, int error_size);

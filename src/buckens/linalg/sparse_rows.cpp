@@ -3,12 +3,14 @@
 
 #include <array>
 #include <mutex>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
 #include "buckens/linalg/grid_library.h"
 #include "buckens/linalg/ranks.h"
+#include "buckens/linalg/row_order.h"
 
 namespace buckens::linalg {
 
@@ -22,12 +24,15 @@ class SparseRows::Elsewhere {
                                        &rows, error, error_size);
     });
   }
-  Elsewhere(Eigen::Index rows, Eigen::Index columns, const DescribeColumns& describe) {
+  Elsewhere(Eigen::Index rows, Eigen::Index columns, SharedRowOrder order,
+            const DescribeColumns& describe)
+      : order_(std::move(order)) {
     ColumnDescriptions own(describe);
     const BuckensGridDescription of = own.for_plugin();
+    const BuckensGridRows runs = rows_for_plugin(order_);
     ask({rows, columns, "made by"}, [&](char* error, int error_size) {
-      return grid_solver().make_rows(static_cast<int>(rows), static_cast<int>(columns), &of, error,
-                                     error_size);
+      return grid_solver().make_rows(static_cast<int>(rows), static_cast<int>(columns), &runs, &of,
+                                     error, error_size);
     });
   }
   ~Elsewhere() {
@@ -39,7 +44,8 @@ class SparseRows::Elsewhere {
 
   void multiply(const double* x, double* y) const {
     const std::scoped_lock lock(turn_of_grid_solver());
-    grid_solver().multiply(1, &number_, &x, &y);
+    fill_by_rows(order_, y,
+                 [&](double* of_rows) { grid_solver().multiply(1, &number_, &x, &of_rows); });
   }
 
  private:
@@ -61,6 +67,7 @@ class SparseRows::Elsewhere {
                     wish.rows, wish.columns, wish.verb, Ranks::count(), error.data()));
   }
 
+  SharedRowOrder order_;
   int number_ = -1;
 };
 
@@ -73,8 +80,9 @@ SparseRows::SparseRows(RowMajor&& A) : rows_(A.rows()) {
   }
 }
 
-SparseRows::SparseRows(Eigen::Index rows, Eigen::Index columns, const DescribeColumns& describe)
-    : rows_(rows), elsewhere_(std::make_shared<const Elsewhere>(rows, columns, describe)) {}
+SparseRows::SparseRows(Eigen::Index rows, Eigen::Index columns, const SharedRowOrder& order,
+                       const DescribeColumns& describe)
+    : rows_(rows), elsewhere_(std::make_shared<const Elsewhere>(rows, columns, order, describe)) {}
 
 Vector SparseRows::operator*(const Vector& x) const {
   if (!elsewhere_) return here_ * x;

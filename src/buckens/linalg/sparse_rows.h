@@ -5,6 +5,7 @@
 
 #include "buckens/linalg/column_descriptions.h"
 #include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/shared_row_order.h"
 
 namespace buckens::linalg {
 
@@ -22,9 +23,11 @@ class SparseRows {
   /// @throws NumericalError if memory is too small
   explicit SparseRows(RowMajor&& A);
   /// One whose rows other processes make, as columns of its transpose (Ranks::serve).
+  /// @param order in which they have them, and in which they are described
   /// @pre is_shared_work(columns)
   /// @throws NumericalError if one of them cannot, with its reason
-  SparseRows(Eigen::Index rows, Eigen::Index columns, const DescribeColumns& describe);
+  SparseRows(Eigen::Index rows, Eigen::Index columns, const SharedRowOrder& order,
+             const DescribeColumns& describe);
 
   Eigen::Index rows() const { return rows_; }
   /// A x

@@ -10,6 +10,7 @@
 #include "buckens/fem/assembly/mesh_part.h"
 #include "buckens/linalg/counted_entries.h"
 #include "buckens/linalg/ranks.h"
+#include "buckens/linalg/row_order.h"
 
 namespace buckens::fem {
 
@@ -76,19 +77,35 @@ linalg::SparseRows::RowMajor rows_of_this_process(const Blocks& blocks, const Me
 
 }  // namespace
 
-linalg::SparseRows stress_rows(const Blocks& blocks, const MeshView& mesh) {
+linalg::SparseRows stress_rows(const Blocks& blocks, const MeshView& mesh, const NodeParts& parts) {
   if (!linalg::is_shared_work(mesh.dofs.num_dofs)) {
     return linalg::SparseRows(rows_of_this_process(blocks, mesh));
   }
-  return {num_rows(blocks), mesh.dofs.num_dofs,
-          [&](int first, int end) { return description_of_stress_rows(blocks, mesh, first, end); }};
+  const linalg::SharedRowOrder order = stress_row_order(blocks, parts);
+  return {num_rows(blocks), mesh.dofs.num_dofs, order, [&](int first, int end) {
+            return description_of_stress_rows(blocks, mesh, order, first, end);
+          }};
+}
+
+linalg::SharedRowOrder stress_row_order(const Blocks& blocks, const NodeParts& parts) {
+  if (parts.empty()) return nullptr;
+  std::vector<int> of_rows;
+  of_rows.reserve(static_cast<std::size_t>(num_rows(blocks)));
+  visit_stressed(blocks, [&](const ElementBlock& block, int, int rows) {
+    for (int e = 0; e < block.num_elements(); ++e) {
+      const auto node = static_cast<std::size_t>(block.nodes(e).front());
+      of_rows.insert(of_rows.end(), static_cast<std::size_t>(rows), parts.part[node]);
+    }
+  });
+  return std::make_shared<const linalg::RowOrder>(of_rows, parts.count);
 }
 
 std::vector<std::byte> description_of_stress_rows(const Blocks& blocks, const MeshView& mesh,
-                                                  int first, int end) {
+                                                  const linalg::SharedRowOrder& order, int first,
+                                                  int end) {
   base::BytesTo put;
   put(MeshMatrix::stress);
-  // The elements to which these rows belong: they follow each other, as rows do.
+  // The elements to which these rows belong, in their order.
   std::vector<std::vector<int>> elements(blocks.size());
   int first_of_part = -1;
   visit_stressed(blocks, [&](const ElementBlock& block, int first_row, int rows) {
@@ -96,7 +113,8 @@ std::vector<std::byte> description_of_stress_rows(const Blocks& blocks, const Me
                                     [&block](const auto& b) { return b.get() == &block; });
     auto& own = elements[static_cast<std::size_t>(found - blocks.begin())];
     for (int e = 0; e < block.num_elements(); ++e) {
-      const int row = first_row + rows * e;
+      const int listed = first_row + rows * e;
+      const int row = order ? order->row(listed) : listed;
       if (row + rows <= first || row >= end) continue;
       if (first_of_part < 0) first_of_part = row;
       own.push_back(e);

@@ -113,7 +113,7 @@ std::vector<std::vector<int>> solids_at_nodes(const FeModel& fe) {
 }
 
 SolidRecovery::SolidRecovery(const FeModel& fe)
-    : rows_(stress_rows(fe.blocks, {fe.nodes, fe.dofs})) {
+    : rows_(stress_rows(fe.blocks, {fe.nodes, fe.dofs}, fe.parts)) {
   for (const auto& block : fe.blocks) {
     if (block->is_solid()) num_solids_ += block->num_elements();
     if (block->is_shell()) num_shells_ += block->num_elements();

@@ -33,12 +33,14 @@ void expect_columns(const SparseMatrix& found, const SparseMatrix& A, int first)
   }
 }
 
-/// An order in which neighbours are far apart, in three parts.
-linalg::RowOrder scattered(int variables) {
+/// Three parts in which neighbours are far apart.
+std::vector<int> scattered_parts(int count) {
   std::vector<int> part;
-  for (int k = 0; k < variables; ++k) part.push_back(k * k % 7 % 3);
-  return {part, 3};
+  for (int k = 0; k < count; ++k) part.push_back(k * k % 7 % 3);
+  return part;
 }
+
+linalg::RowOrder scattered(int variables) { return {scattered_parts(variables), 3}; }
 
 /// That columns of a process are those of A in this order of rows, with the bits of its lower
 /// triangle.
@@ -88,11 +90,26 @@ void expect_same_matrices(const Structure& s, std::optional<spatial::Plane> plan
   }
 }
 
+/// That a process makes some rows of stresses with the bits of one process.
+/// @param order of the rows, or null @param expected all stresses of d
+void expect_stress_rows(const FeModel& fe, const linalg::SharedRowOrder& order, int first, int end,
+                        const linalg::Vector& d, const linalg::Vector& expected) {
+  const std::vector<std::byte> description =
+      description_of_stress_rows(fe.blocks, {fe.nodes, fe.dofs}, order, first, end);
+  const SparseMatrix made = made_columns(description, first, end);
+  ASSERT_EQ(made.rows(), d.size());
+  ASSERT_EQ(made.cols(), end - first);
+  const linalg::SparseRows::RowMajor own = made.transpose();
+  const linalg::Vector found = own * d;
+  for (int k = 0; k < end - first; ++k) {
+    ASSERT_EQ(found[k], expected[order ? order->variable(first + k) : first + k]) << k;
+  }
+}
+
 /// What other processes make of stresses has the bits of what one has.
 void expect_same_stresses(const Structure& s) {
   const FeModel fe = assemble(s);
-  const MeshView mesh{fe.nodes, fe.dofs};
-  const linalg::SparseRows rows = stress_rows(fe.blocks, mesh);
+  const linalg::SparseRows rows = stress_rows(fe.blocks, {fe.nodes, fe.dofs}, {});
   const auto n = static_cast<int>(rows.rows());
   linalg::Vector d(fe.dofs.num_dofs);
   for (Eigen::Index k = 0; k < d.size(); ++k) d[k] = std::sin(static_cast<double>(7 * k));
@@ -100,13 +117,13 @@ void expect_same_stresses(const Structure& s) {
   // Runs that begin and end within an element; one of them is empty.
   const std::array<int, 5> runs = {0, n / 3 + 1, n / 3 + 1, n - 4, n};
   for (std::size_t k = 0; k + 1 < runs.size(); ++k) {
-    const std::vector<std::byte> description =
-        description_of_stress_rows(fe.blocks, mesh, runs[k], runs[k + 1]);
-    const SparseMatrix made = made_columns(description, runs[k], runs[k + 1]);
-    ASSERT_EQ(made.rows(), d.size());
-    ASSERT_EQ(made.cols(), runs[k + 1] - runs[k]);
-    const linalg::SparseRows::RowMajor own = made.transpose();
-    ASSERT_EQ(linalg::Vector(own * d), expected.segment(runs[k], made.cols()));
+    expect_stress_rows(fe, nullptr, runs[k], runs[k + 1], d, expected);
+  }
+  // By place, that is by parts of the nodes, of which one has none.
+  const NodeParts parts{4, scattered_parts(static_cast<int>(fe.nodes.size())), 0};
+  const linalg::SharedRowOrder order = stress_row_order(fe.blocks, parts);
+  for (std::size_t k = 0; k < 4; ++k) {
+    expect_stress_rows(fe, order, order->first_rows()[k], order->first_rows()[k + 1], d, expected);
   }
 }
 
