@@ -192,11 +192,11 @@ int plugin_make_pairs(int size, const BuckensGridRows* rows, int most, char* err
                    [&](Ranks& all_of_them) { return all_of_them.make_pairs(size, *rows, most); });
 }
 
-double plugin_project(int number, int pairs, float* r, float* along) {
+double plugin_project(int number, int pairs, double* r, double* along) {
   return ranks()->project(number, pairs, r, along);
 }
 
-void plugin_combine(int number, int pairs, const float* weights, float* sum) {
+void plugin_combine(int number, int pairs, const double* weights, double* sum) {
   ranks()->combine(number, pairs, weights, sum);
 }
 

@@ -73,8 +73,8 @@ class Ranks {
   /// Of the first: room for pairs of vectors of so many rows. @return its number, −1 as make()
   int make_pairs(int size, const BuckensGridRows& rows, int most);
   /// @return ‖r‖²
-  double project(int number, int pairs, float* r, float* along);
-  void combine(int number, int pairs, const float* weights, float* sum);
+  double project(int number, int pairs, double* r, double* along);
+  void combine(int number, int pairs, const double* weights, double* sum);
   void put_pair(int number, int pair, const float* load, const float* answer);
   void take_pair(int number, int pair, float* load, float* answer);
   /// First rows of the others, and the end.
@@ -158,11 +158,13 @@ class Ranks {
   void give_pairs(Task task, int number, int count);
   void serve_pairs(const Order& order);
   bool make_pairs_together(const Order& order, const BuckensGridRows* of);
-  void scatter(const Pairs& pairs, const float* whole, float* here);
-  void gather(const Pairs& pairs, const float* here, float* whole);
+  template <class T>
+  void scatter(const Pairs& pairs, const T* whole, T* here);
+  template <class T>
+  void gather(const Pairs& pairs, const T* here, T* whole);
   void sum_in_order(std::vector<double>& values);
-  double project_together(Pairs& own, int pairs, float* r, float* along);
-  void combine_together(Pairs& own, int pairs, const float* weights, float* sum);
+  double project_together(Pairs& own, int pairs, double* r, double* along);
+  void combine_together(Pairs& own, int pairs, const double* weights, double* sum);
   void put_pair_together(Pairs& own, int pair, const float* load, const float* answer);
   void take_pair_together(Pairs& own, int pair, float* load, float* answer);
   void forget_here(int number);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pairs of loads and answers in single precision, of which each process but the first has a run of
-// rows.
+// rows. Arithmetic with them is in double precision.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -15,23 +15,27 @@ namespace {
 // Sums that do not wait for each other.
 constexpr int kLanes = 8;
 
-double dot(const float* a, const float* b, std::size_t count) {
+template <class A>
+double dot(const A* a, const double* b, std::size_t count) {
   std::array<double, kLanes> sums{};
   std::size_t k = 0;
   for (; k + kLanes <= count; k += kLanes) {
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      sums[lane] += static_cast<double>(a[k + lane]) * static_cast<double>(b[k + lane]);
+      sums[lane] += static_cast<double>(a[k + lane]) * b[k + lane];
     }
   }
-  for (; k < count; ++k) sums[0] += static_cast<double>(a[k]) * static_cast<double>(b[k]);
+  for (; k < count; ++k) sums[0] += static_cast<double>(a[k]) * b[k];
   double out = 0;
   for (const double sum : sums) out += sum;
   return out;
 }
 
-void add(float factor, const float* from, std::size_t count, float* to) {
-  for (std::size_t k = 0; k < count; ++k) to[k] += factor * from[k];
+void add(double factor, const float* from, std::size_t count, double* to) {
+  for (std::size_t k = 0; k < count; ++k) to[k] += factor * static_cast<double>(from[k]);
 }
+
+MPI_Datatype kind_of(const float* /*values*/) { return MPI_FLOAT; }
+MPI_Datatype kind_of(const double* /*values*/) { return MPI_DOUBLE; }
 
 }  // namespace
 
@@ -57,18 +61,22 @@ bool Ranks::make_pairs_together(const Order& order, const BuckensGridRows* of) {
 }
 
 /// Rows of a vector of the first process to those who have them, or back.
-void Ranks::scatter(const Pairs& pairs, const float* whole, float* here) {
-  MPI_Scatterv(whole, pairs.counts.data(), pairs.first.data(), MPI_FLOAT, here, pairs.counts[rank_],
-               MPI_FLOAT, 0, work_);
+template <class T>
+void Ranks::scatter(const Pairs& pairs, const T* whole, T* here) {
+  const MPI_Datatype kind = kind_of(here);
+  MPI_Scatterv(whole, pairs.counts.data(), pairs.first.data(), kind, here, pairs.counts[rank_],
+               kind, 0, work_);
   count_messages(count_ - 1, 0);
-  traffic_.bytes += sizeof(float) * static_cast<double>(pairs.first.back());
+  traffic_.bytes += sizeof(T) * static_cast<double>(pairs.first.back());
 }
 
-void Ranks::gather(const Pairs& pairs, const float* here, float* whole) {
-  MPI_Gatherv(here, pairs.counts[rank_], MPI_FLOAT, whole, pairs.counts.data(), pairs.first.data(),
-              MPI_FLOAT, 0, work_);
+template <class T>
+void Ranks::gather(const Pairs& pairs, const T* here, T* whole) {
+  const MPI_Datatype kind = kind_of(here);
+  MPI_Gatherv(here, pairs.counts[rank_], kind, whole, pairs.counts.data(), pairs.first.data(), kind,
+              0, work_);
   count_messages(count_ - 1, 0);
-  traffic_.bytes += sizeof(float) * static_cast<double>(pairs.first.back());
+  traffic_.bytes += sizeof(T) * static_cast<double>(pairs.first.back());
 }
 
 /// Of all processes, in their order, on the first: so the same in every run.
@@ -81,13 +89,13 @@ void Ranks::sum_in_order(std::vector<double>& values) {
   for (std::size_t k = count; k < all.size(); ++k) values[k % count] += all[k];
 }
 
-double Ranks::project(int number, int pairs, float* r, float* along) {
+double Ranks::project(int number, int pairs, double* r, double* along) {
   give_pairs(Task::project, number, pairs);
   return project_together(*shared_->pairs.at(number), pairs, r, along);
 }
 
 /// @return of the first process: ‖r‖²
-double Ranks::project_together(Pairs& own, int pairs, float* r, float* along) {
+double Ranks::project_together(Pairs& own, int pairs, double* r, double* along) {
   const auto here = static_cast<std::size_t>(own.counts[rank_]);
   const auto count = static_cast<std::size_t>(pairs);
   scatter(own, r, own.row.data());
@@ -96,32 +104,32 @@ double Ranks::project_together(Pairs& own, int pairs, float* r, float* along) {
     sums[i] = dot(own.loads.get() + i * here, own.row.data(), here);
   }
   sum_in_order(sums);
-  std::vector<float> shares(sums.begin(), sums.end());
-  MPI_Bcast(shares.data(), pairs, MPI_FLOAT, 0, work_);
-  count_messages(count_ - 1, sizeof(float) * static_cast<double>(count));
-  if (rank_ == 0) std::copy(shares.begin(), shares.end(), along);
+  MPI_Bcast(sums.data(), pairs, MPI_DOUBLE, 0, work_);
+  count_messages(count_ - 1, sizeof(double) * static_cast<double>(count));
+  if (rank_ == 0) std::copy(sums.begin(), sums.end(), along);
   for (std::size_t i = 0; i < count && rank_ != 0; ++i) {
-    add(-shares[i], own.loads.get() + i * here, here, own.row.data());
+    add(-sums[i], own.loads.get() + i * here, here, own.row.data());
   }
+  for (double& value : own.row) value = static_cast<double>(static_cast<float>(value));
   std::vector<double> square = {dot(own.row.data(), own.row.data(), here)};
   sum_in_order(square);
   gather(own, own.row.data(), r);
   return square.front();
 }
 
-void Ranks::combine(int number, int pairs, const float* weights, float* sum) {
+void Ranks::combine(int number, int pairs, const double* weights, double* sum) {
   give_pairs(Task::combine, number, pairs);
   combine_together(*shared_->pairs.at(number), pairs, weights, sum);
 }
 
-void Ranks::combine_together(Pairs& own, int pairs, const float* weights, float* sum) {
+void Ranks::combine_together(Pairs& own, int pairs, const double* weights, double* sum) {
   const auto here = static_cast<std::size_t>(own.counts[rank_]);
   const auto count = static_cast<std::size_t>(pairs);
-  std::vector<float> shares(count);
+  std::vector<double> shares(count);
   if (weights != nullptr) shares.assign(weights, weights + count);
-  MPI_Bcast(shares.data(), pairs, MPI_FLOAT, 0, work_);
-  count_messages(count_ - 1, sizeof(float) * static_cast<double>(count));
-  std::fill(own.row.begin(), own.row.end(), 0.0F);
+  MPI_Bcast(shares.data(), pairs, MPI_DOUBLE, 0, work_);
+  count_messages(count_ - 1, sizeof(double) * static_cast<double>(count));
+  std::fill(own.row.begin(), own.row.end(), 0.0);
   for (std::size_t i = 0; i < count && rank_ != 0; ++i) {
     add(shares[i], own.answers.get() + i * here, here, own.row.data());
   }

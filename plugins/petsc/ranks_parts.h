@@ -148,7 +148,7 @@ struct Ranks::Divided {
 struct Ranks::Pairs {
   std::vector<int> first, counts;           // rows of the processes, and the end
   std::unique_ptr<float[]> loads, answers;  // of those here, pair after pair
-  std::vector<float> row;                   // of one vector
+  std::vector<double> row;                  // of one vector
 
   float* of(const std::unique_ptr<float[]>& all, int pair, int rank) const {
     return all.get() + static_cast<std::size_t>(pair) * static_cast<std::size_t>(counts[rank]);

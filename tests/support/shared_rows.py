@@ -89,13 +89,13 @@ def keep_pairs(plugin, chance, error, count):
     for pair in range(PAIRS):
         plugin.put_pair(number, pair, numbers(ctypes.c_float, loads[pair]), numbers(ctypes.c_float, answers[pair]))
     r = [float(chance.randint(-9, 9)) for _ in range(ROWS)]
-    left, along = numbers(ctypes.c_float, r), numbers(ctypes.c_float, [0.0] * PAIRS)
+    left, along = numbers(ctypes.c_double, r), numbers(ctypes.c_double, [0.0] * PAIRS)
     square = plugin.project(number, 2, left, along)
     expected = [0.0 if row in (2, 20) else value for row, value in enumerate(r)]
     print("along:", difference(along, [r[2], r[20], 0.0]))
     print("left:", difference(left, expected), square - sum(value * value for value in expected))
-    total = numbers(ctypes.c_float, [7.0] * ROWS)
-    plugin.combine(number, PAIRS, numbers(ctypes.c_float, [1.0, -2.0, 0.5]), total)
+    total = numbers(ctypes.c_double, [7.0] * ROWS)
+    plugin.combine(number, PAIRS, numbers(ctypes.c_double, [1.0, -2.0, 0.5]), total)
     print("combined:", difference(total, [a - 2 * b + c / 2 for a, b, c in zip(*answers, strict=True)]))
     load, answer = numbers(ctypes.c_float, [0.0] * ROWS), numbers(ctypes.c_float, [0.0] * ROWS)
     plugin.take_pair(number, 1, load, answer)

@@ -39,46 +39,47 @@ DividedPairs::~DividedPairs() {
   grid_solver().forget(number_);
 }
 
-double DividedPairs::project(int pairs, VectorXf& r, VectorXf& along, TaskPool* /*pool*/) {
+double DividedPairs::project(int pairs, Vector& r, Vector& along, TaskPool* /*pool*/) {
   const std::scoped_lock lock(turn_of_grid_solver());
   PutOffWork::finish();
   double square = 0;
   if (!order_) {
     square = grid_solver().project(number_, pairs, r.data(), along.data());
   } else {
-    std::vector<float> of_rows = order_->by_rows(r.data());
+    std::vector<double> of_rows = order_->by_rows(r.data());
     square = grid_solver().project(number_, pairs, of_rows.data(), along.data());
     order_->by_variables(of_rows, r.data());
   }
   return std::sqrt(square);
 }
 
-void DividedPairs::combine(int pairs, const VectorXf& weights, const VectorXf& scale, bool adds,
+void DividedPairs::combine(int pairs, const Vector& weights, const VectorXf& scale, bool adds,
                            Vector& x, TaskPool* /*pool*/) const {
-  VectorXf sum(rows_);
+  Vector sum(rows_);
   {
     const std::scoped_lock lock(turn_of_grid_solver());
     PutOffWork::finish();
-    fill_by_rows(order_, sum.data(), [&](float* of_rows) {
+    fill_by_rows(order_, sum.data(), [&](double* of_rows) {
       grid_solver().combine(number_, pairs, weights.data(), of_rows);
     });
   }
   if (!adds) x.setZero(rows_);
-  x += sum.cwiseProduct(scale).cast<double>();
+  x += sum.cwiseProduct(scale.cast<double>());
 }
 
-void DividedPairs::separate(int pair, VectorXf& load, VectorXf& answer, TaskPool* /*pool*/) {
+void DividedPairs::separate(int pair, Vector& load, Vector& answer, TaskPool* /*pool*/) {
   VectorXf c, x;
   take(pair, c, x);
-  const auto along = static_cast<float>(c.cast<double>().dot(load.cast<double>()));
-  load -= along * c;
-  answer -= along * x;
+  const double along = c.cast<double>().dot(load);
+  load -= along * c.cast<double>();
+  load = load.cast<float>().cast<double>().eval();
+  answer -= along * x.cast<double>();
 }
 
-void DividedPairs::put(int pair, float scale, const VectorXf& load, const VectorXf& answer,
+void DividedPairs::put(int pair, double scale, const Vector& load, const Vector& answer,
                        TaskPool* /*pool*/) {
-  const VectorXf c = scale * load;
-  const VectorXf x = scale * answer;
+  const VectorXf c = (scale * load).cast<float>();
+  const VectorXf x = (scale * answer).cast<float>();
   std::vector<float> c_rows, x_rows;
   if (order_) {
     c_rows = order_->by_rows(c.data());

@@ -14,11 +14,11 @@ class DividedPairs final : public KeptPairs {
   DividedPairs(const DividedPairs&) = delete;
   DividedPairs& operator=(const DividedPairs&) = delete;
 
-  double project(int pairs, Eigen::VectorXf& r, Eigen::VectorXf& along, TaskPool* pool) override;
-  void combine(int pairs, const Eigen::VectorXf& weights, const Eigen::VectorXf& scale, bool adds,
-               Vector& x, TaskPool* pool) const override;
-  void separate(int pair, Eigen::VectorXf& load, Eigen::VectorXf& answer, TaskPool* pool) override;
-  void put(int pair, float scale, const Eigen::VectorXf& load, const Eigen::VectorXf& answer,
+  double project(int pairs, Vector& r, Vector& along, TaskPool* pool) override;
+  void combine(int pairs, const Vector& weights, const Eigen::VectorXf& scale, bool adds, Vector& x,
+               TaskPool* pool) const override;
+  void separate(int pair, Vector& load, Vector& answer, TaskPool* pool) override;
+  void put(int pair, double scale, const Vector& load, const Vector& answer,
            TaskPool* pool) override;
   void take(int pair, Eigen::VectorXf& load, Eigen::VectorXf& answer) const override;
   int number() const override { return number_; }

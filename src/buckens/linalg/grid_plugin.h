@@ -210,11 +210,12 @@ struct BuckensGridPlugin {
   /// Of the first: room for `most` pairs of vectors, a load and an answer, of which the other
   /// processes have the rows. Only where there are others. @return its number, -1 after an error
   int (*make_pairs)(int size, const BuckensGridRows* rows, int most, char* error, int error_size);
-  /// along_i = c_i r and r = r - sum of along_i c_i, over the loads c_i of the first pairs.
+  /// along_i = c_i r and r = r - sum of along_i c_i, over the loads c_i of the first pairs; r is
+  /// then rounded to single precision.
   /// @return the square of the norm of r
-  double (*project)(int number, int pairs, float* r, float* along);
+  double (*project)(int number, int pairs, double* r, double* along);
   /// The sum of weights_i x_i over the answers x_i of the first pairs.
-  void (*combine)(int number, int pairs, const float* weights, float* sum);
+  void (*combine)(int number, int pairs, const double* weights, double* sum);
   void (*put_pair)(int number, int pair, const float* load, const float* answer);
   void (*take_pair)(int number, int pair, float* load, float* answer);
   /// First rows of the other processes, and the end, where they have runs of equal length: as many

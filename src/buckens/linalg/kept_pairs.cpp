@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "buckens/linalg/divided_pairs.h"
+#include "buckens/linalg/float_columns.h"
 #include "buckens/linalg/ranks.h"
 
 namespace buckens::linalg {
@@ -28,41 +29,39 @@ class OwnPairs final : public KeptPairs {
     }
   }
 
-  double project(int pairs, VectorXf& r, VectorXf& along, TaskPool* pool) override {
+  double project(int pairs, Vector& r, Vector& along, TaskPool* pool) override {
     for (PartSums& sums : sums_) {
       sums.along.setZero();
       sums.square = 0;
     }
     parts_.for_pieces(pool, [&](int part, Index first, Index size) {
       PartSums& sums = sums_[static_cast<std::size_t>(part)];
-      sums.products.head(pairs).noalias() =
-          block(loads_, pairs, first, size).transpose() * r.segment(first, size);
-      sums.along.head(pairs) += sums.products.head(pairs).cast<double>();
+      columns(loads_, pairs, first, size).products(r.data() + first, sums.products.data());
+      sums.along.head(pairs) += sums.products.head(pairs);
     });
     for (Index i = 0; i < pairs; ++i) {
       double sum = 0;
       for (const PartSums& sums : sums_) sum += sums.along[i];
-      along[i] = static_cast<float>(sum);
+      along[i] = sum;
     }
     parts_.for_pieces(pool, [&](int part, Index first, Index size) {
-      auto piece = r.segment(first, size);
-      piece.noalias() -= block(loads_, pairs, first, size) * along.head(pairs);
-      // Squares of small loads underflow in single precision: they vanish, or cost a hundred times
-      // as much.
-      sums_[static_cast<std::size_t>(part)].square += piece.cast<double>().squaredNorm();
+      columns(loads_, pairs, first, size).add_to(-1.0, along.data(), r.data() + first);
+      round(first, size, r);
+      sums_[static_cast<std::size_t>(part)].square += r.segment(first, size).squaredNorm();
     });
     return std::sqrt(sum_of_squares());
   }
 
-  void combine(int pairs, const VectorXf& weights, const VectorXf& scale, bool adds, Vector& x,
+  void combine(int pairs, const Vector& weights, const VectorXf& scale, bool adds, Vector& x,
                TaskPool* pool) const override {
     parts_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
-      // A piece of x in single precision, where the cache holds it.
-      std::array<float, RowParts::kPiece> room;
-      Eigen::Map<VectorXf> sum(room.data(), size);
-      sum.noalias() = block(answers_, pairs, first, size) * weights.head(pairs);
+      // A piece of the sum, where the cache holds it.
+      std::array<double, RowParts::kPiece> room;
+      Eigen::Map<Vector> sum(room.data(), size);
+      sum.setZero();
+      columns(answers_, pairs, first, size).add_to(1.0, weights.data(), room.data());
       auto to = x.segment(first, size);
-      const auto scaled = sum.cwiseProduct(scale.segment(first, size)).cast<double>();
+      const auto scaled = sum.cwiseProduct(scale.segment(first, size).cast<double>());
       if (adds) {
         to += scaled;
       } else {
@@ -71,27 +70,27 @@ class OwnPairs final : public KeptPairs {
     });
   }
 
-  void separate(int pair, VectorXf& load, VectorXf& answer, TaskPool* pool) override {
+  void separate(int pair, Vector& load, Vector& answer, TaskPool* pool) override {
     for (PartSums& sums : sums_) sums.square = 0;
     parts_.for_pieces(pool, [&](int part, Index first, Index size) {
-      const float product =
-          loads_.segment(place(pair, first, size), size).dot(load.segment(first, size));
-      sums_[static_cast<std::size_t>(part)].square += static_cast<double>(product);
+      double product = 0;
+      column(loads_, pair, first, size).products(load.data() + first, &product);
+      sums_[static_cast<std::size_t>(part)].square += product;
     });
-    const auto along = static_cast<float>(sum_of_squares());
+    const double along = sum_of_squares();
     parts_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
-      const Index at = place(pair, first, size);
-      load.segment(first, size) -= along * loads_.segment(at, size);
-      answer.segment(first, size) -= along * answers_.segment(at, size);
+      column(loads_, pair, first, size).add_to(-1.0, &along, load.data() + first);
+      column(answers_, pair, first, size).add_to(-1.0, &along, answer.data() + first);
+      round(first, size, load);
     });
   }
 
-  void put(int pair, float scale, const VectorXf& load, const VectorXf& answer,
+  void put(int pair, double scale, const Vector& load, const Vector& answer,
            TaskPool* pool) override {
     parts_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
       const Index at = place(pair, first, size);
-      loads_.segment(at, size) = scale * load.segment(first, size);
-      answers_.segment(at, size) = scale * answer.segment(first, size);
+      loads_.segment(at, size) = (scale * load.segment(first, size)).cast<float>();
+      answers_.segment(at, size) = (scale * answer.segment(first, size)).cast<float>();
     });
   }
 
@@ -106,22 +105,28 @@ class OwnPairs final : public KeptPairs {
   }
 
  private:
-  using ConstBlock = Eigen::Map<const Eigen::MatrixXf>;
   /// Of one part of the rows.
   struct PartSums {
-    VectorXf products;  // of one piece
+    Vector products;  // of one piece
     Vector along;
     double square = 0;
   };
 
+  static void round(Index first, Index size, Vector& load) {
+    auto piece = load.segment(first, size);
+    piece = piece.cast<float>().cast<double>();
+  }
   double sum_of_squares() const {
     double sum = 0;
     for (const PartSums& sums : sums_) sum += sums.square;
     return sum;
   }
-  /// Rows `first` … `first + size` of the first pairs.
-  ConstBlock block(const VectorXf& all, int pairs, Index first, Index size) const {
-    return {all.data() + first * most_, size, pairs};
+  /// Rows `first` … `first + size` of the first pairs, or of one.
+  FloatColumns columns(const VectorXf& all, int pairs, Index first, Index size) const {
+    return {all.data() + first * most_, size, size, pairs};
+  }
+  FloatColumns column(const VectorXf& all, int pair, Index first, Index size) const {
+    return {all.data() + place(pair, first, size), size, size, 1};
   }
   /// Where a piece of a pair lies in a vector of pairs.
   Index place(Index pair, Index first, Index size) const { return first * most_ + pair * size; }

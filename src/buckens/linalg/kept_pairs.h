@@ -11,23 +11,24 @@
 
 namespace buckens::linalg {
 
-/// Pairs of loads cᵢ and answers in single precision, and the arithmetic that reads all of them
-/// (RecycledSolves). Results are bitwise the same with any number of threads, and from run to run.
+/// Pairs of loads cᵢ and answers in single precision, and the arithmetic that reads all of them, in
+/// double precision (RecycledSolves). Results are bitwise the same with any number of threads, and
+/// from run to run.
 class KeptPairs {
  public:
   virtual ~KeptPairs() = default;
 
-  /// r ← r − Σ αᵢ cᵢ with αᵢ = cᵢᵀ r over the first pairs. @param along gets the αᵢ. @return ‖r‖
-  virtual double project(int pairs, Eigen::VectorXf& r, Eigen::VectorXf& along, TaskPool* pool) = 0;
+  /// r ← r − Σ αᵢ cᵢ with αᵢ = cᵢᵀ r over the first pairs, rounded to single precision, as a load
+  /// that is kept is. @param along gets the αᵢ. @return ‖r‖
+  virtual double project(int pairs, Vector& r, Vector& along, TaskPool* pool) = 0;
   /// x ← Σ wᵢ xᵢ, scaled, or added to x. @param scale by which each row is multiplied
-  virtual void combine(int pairs, const Eigen::VectorXf& weights, const Eigen::VectorXf& scale,
-                       bool adds, Vector& x, TaskPool* pool) const = 0;
+  virtual void combine(int pairs, const Vector& weights, const Eigen::VectorXf& scale, bool adds,
+                       Vector& x, TaskPool* pool) const = 0;
   /// Takes from a load what lies along a pair's, and as much of the pair's answer from its answer.
-  virtual void separate(int pair, Eigen::VectorXf& load, Eigen::VectorXf& answer,
-                        TaskPool* pool) = 0;
+  virtual void separate(int pair, Vector& load, Vector& answer, TaskPool* pool) = 0;
   /// Keeps both, scaled.
-  virtual void put(int pair, float scale, const Eigen::VectorXf& load,
-                   const Eigen::VectorXf& answer, TaskPool* pool) = 0;
+  virtual void put(int pair, double scale, const Vector& load, const Vector& answer,
+                   TaskPool* pool) = 0;
   virtual void take(int pair, Eigen::VectorXf& load, Eigen::VectorXf& answer) const = 0;
   /// By which other processes know them; −1: they are in this one.
   virtual int number() const { return -1; }

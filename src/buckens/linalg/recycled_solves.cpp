@@ -46,17 +46,16 @@ void RecycledSolves::begin(const Vector& f, Request& request, TaskPool* pool) {
   request.weights.setZero(most_);
   parts_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
     request.remainder.segment(first, size) =
-        f.segment(first, size).cast<float>().cwiseProduct(scale_.segment(first, size));
+        f.segment(first, size).cwiseProduct(scale_.segment(first, size).cast<double>());
   });
 }
 
 double RecycledSolves::norm(const Request& request, TaskPool* pool) {
   if (request.of != nullptr) return norm_of_divided(request);
-  const VectorXf& load = request.remainder;
   std::fill(squares_.begin(), squares_.end(), 0.0);
   parts_.for_pieces(pool, [&](int part, Index first, Index size) {
-    const auto piece = load.segment(first, size);
-    squares_[static_cast<std::size_t>(part)] += piece.cast<double>().squaredNorm();
+    squares_[static_cast<std::size_t>(part)] +=
+        request.remainder.segment(first, size).squaredNorm();
   });
   double square = 0;
   for (const double part : squares_) square += part;
@@ -84,7 +83,6 @@ bool RecycledSolves::answer(Vector& f, double limit, Request& request, TaskPool*
   request.fate = Request::Fate::solved;
   parts_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
     f.segment(first, size) = request.remainder.segment(first, size)
-                                 .cast<double>()
                                  .cwiseQuotient(scale_.segment(first, size).cast<double>());
   });
   return false;
@@ -94,7 +92,7 @@ void RecycledSolves::complete(Request& request, Vector& x, TaskPool* pool) const
   if (request.fate != Request::Fate::solved) return;
   parts_.for_pieces(pool, [&](int /*part*/, Index first, Index size) {
     request.answer.segment(first, size) =
-        x.segment(first, size).cast<float>().cwiseQuotient(scale_.segment(first, size));
+        x.segment(first, size).cwiseQuotient(scale_.segment(first, size).cast<double>());
   });
   pairs_->combine(num_pairs(), request.weights, scale_, true, x, pool);
 }
@@ -140,7 +138,7 @@ void RecycledSolves::separate(int pair, Request& request, TaskPool* pool) {
 
 void RecycledSolves::put(int pair, double scale, const Request& request, TaskPool* pool) {
   if (request.of != nullptr) return put_divided(pair, scale, request);
-  pairs_->put(pair, static_cast<float>(scale), request.remainder, request.answer, pool);
+  pairs_->put(pair, scale, request.remainder, request.answer, pool);
 }
 
 int RecycledSolves::free_pair() {
@@ -159,7 +157,7 @@ int RecycledSolves::free_pair() {
 void RecycledSolves::note_use(const Request& request) {
   for (int pair = 0; pair < num_pairs(); ++pair) {
     double& score = scores_[index(pair)];
-    score = std::max(kFade * score, std::abs(static_cast<double>(request.weights[pair])));
+    score = std::max(kFade * score, std::abs(request.weights[pair]));
   }
 }
 
@@ -197,7 +195,8 @@ void RecycledSolves::visit_pair(const base::SaveVisit& visit, int pair) {
   if (!visit.is_restoring()) pairs_->take(pair, load, answer);
   visit.vector("load", load, rows());
   visit.vector("answer", answer, rows());
-  if (visit.is_restoring()) pairs_->put(pair, 1.0F, load, answer, nullptr);
+  if (!visit.is_restoring()) return;
+  pairs_->put(pair, 1.0, load.cast<double>(), answer.cast<double>(), nullptr);
 }
 
 }  // namespace buckens::linalg

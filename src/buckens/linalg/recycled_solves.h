@@ -22,7 +22,9 @@ namespace buckens::linalg {
 /// its answer, becomes a pair. Where no place is left, the pair least used lately goes.
 ///
 /// Pairs are kept in single precision: cᵢ is rounded before it is solved for, so that only the
-/// answer is rounded, to 6e-8 of the change that it describes.
+/// answer is rounded, to 6e-8 of the change that it describes. Arithmetic with them is in double
+/// precision: other rounding, of several processes for instance, makes the same pairs and answers
+/// but for 1e-16 of the load, unless a number is just between two of single precision.
 ///
 /// A store that cannot answer half of what it is asked sleeps for a while. It changes by learn()
 /// only, so that what was asked in vain leaves no trace. All results, and what is kept, are bitwise
@@ -34,9 +36,9 @@ class RecycledSolves {
  public:
   /// One load on its way to its answer.
   struct Request {
-    Eigen::VectorXf remainder;  ///< r/√A of the diagonal, later its share of a new pair
-    Eigen::VectorXf answer;     ///< √A of the diagonal times A⁻¹ r
-    Eigen::VectorXf weights;    ///< αᵢ
+    Vector remainder;  ///< r/√A of the diagonal, later its share of a new pair
+    Vector answer;     ///< √A of the diagonal times A⁻¹ r
+    Vector weights;    ///< αᵢ
     enum class Fate { not_tried, answered, solved } fate = Fate::not_tried;
     /// In place of remainder and answer where other processes have the rows of the load; null:
     /// here.
@@ -105,7 +107,7 @@ class RecycledSolves {
   std::unique_ptr<KeptPairs> pairs_;  // scaled by 1/√Aⱼⱼ and √Aⱼⱼ
   std::vector<double> scores_;        // of the pairs: use, fading
   std::vector<double> squares_;       // per part of the rows
-  Eigen::VectorXf along_;             // of one projection
+  Vector along_;                      // of one projection
   std::vector<int> made_;             // pairs made in one call of learn()
   long tried_ = 0, answered_ = 0, asleep_for_ = 0;
 };

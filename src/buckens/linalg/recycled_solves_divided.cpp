@@ -19,10 +19,8 @@ Vector run_for(RowProgram& program, const RowProgram::Sums& sums) {
 /// Takes from the remainder what lies along the pairs. @param products of the remainder with them
 void RecycledSolves::project_divided(Request& request, RowProgram& program,
                                      const Vector& products) const {
-  const Eigen::VectorXf along = products.cast<float>();
-  program.subtract_loads(pairs_there(0, num_pairs()), request.remainder_there,
-                         along.cast<double>());
-  request.weights.head(num_pairs()) += along;
+  program.subtract_loads(pairs_there(0, num_pairs()), request.remainder_there, products);
+  request.weights.head(num_pairs()) += products;
 }
 
 bool RecycledSolves::answer(const DividedLoad& f, double limit, Request& request) {
@@ -42,8 +40,7 @@ bool RecycledSolves::answer(const DividedLoad& f, double limit, Request& request
     RowProgram program(*f.of);
     project_divided(request, program, products);
     const RowProgram::Sums square = program.square(request.remainder_there);
-    const DividedVector sum =
-        program.combine_answers(all, request.weights.head(num_pairs()).cast<double>());
+    const DividedVector sum = program.combine_answers(all, request.weights.head(num_pairs()));
     const DividedVector answered = program.scale(sum, *f.scale, false);
     if (std::sqrt(run_for(program, square)[0]) <= limit) {
       *f.load = answered;
@@ -66,8 +63,8 @@ void RecycledSolves::complete(Request& request, const DividedLoad& x) const {
   if (request.fate != Request::Fate::solved) return;
   RowProgram program(*x.of);
   request.answer_there = program.scale(*x.load, *x.scale, true);
-  const DividedVector sum = program.combine_answers(
-      pairs_there(0, num_pairs()), request.weights.head(num_pairs()).cast<double>());
+  const DividedVector sum =
+      program.combine_answers(pairs_there(0, num_pairs()), request.weights.head(num_pairs()));
   const DividedVector known = program.scale(sum, *x.scale, false);
   const std::array<std::pair<double, const DividedVector*>, 1> added = {{{1.0, &known}}};
   program.add(*x.load, added);
