@@ -5,7 +5,7 @@ import json
 
 import pytest
 
-from models_of_many_variables import BLOW, CUBE, SHELLS, TWINS
+from models_of_many_variables import BLOW, CUBE, SHELL_SIDE, SHELLS, SIDE, TWINS
 from mpi_runs import expect_same_energies, expect_same_stresses, mpirun, must, several, sets  # noqa: F401
 from test_solver import largest_difference, sensors
 
@@ -50,7 +50,7 @@ def test_vectors_of_a_step_stay_with_the_other_processes(mpirun, tmp_path, count
     if count > 2:  # borders between rows of products are counted twice
         return
     # Three vectors, M and K times one each, and the rows of stresses; and two vectors at first.
-    stresses = 6 * 18**3
+    stresses = 6 * SIDE**3
     of_record = 8 * (3 * dof + 2 * 2 * dof + dof + stresses)
     per_step = (summary["measures"]["bytes_per_step"] * steps - of_record - 2 * 8 * dof) / steps
     # Each way what the first process has of the factor: subtrees of the order of elimination, which differ in size.
@@ -73,7 +73,7 @@ def test_kept_pairs_are_combined_where_their_rows_are(mpirun, tmp_path):
     dof, made = body["dof"], body["solves"] - 30
     assert body["recycled"] >= 15 and made >= 8, "there are changes of both kinds"
     # Two records as above, and two vectors at first.
-    per_solve = bytes_per_solve(tmp_path / "out", 2 * (8 * dof + 6 * 18**3) + 2 * dof)
+    per_solve = bytes_per_solve(tmp_path / "out", 2 * (8 * dof + 6 * SIDE**3) + 2 * dof)
     # Each way what the first process has of the factor. Changes would add twelve numbers per variable.
     assert 2 * 8 * 0.25 * dof < per_solve < 2 * 8 * 0.75 * dof
 
@@ -87,8 +87,32 @@ def test_vectors_of_shells_stay_with_the_other_processes(mpirun, tmp_path):
     dof = body["dof"]
     assert body["solves"] == 20
     # Two records with stresses of two layers of each shell, and two vectors at first.
-    per_solve = bytes_per_solve(tmp_path / "out", 2 * (8 * dof + 12 * 58**2) + 2 * dof)
+    per_solve = bytes_per_solve(tmp_path / "out", 2 * (8 * dof + 12 * SHELL_SIDE**2) + 2 * dof)
     assert 2 * 8 * 0.25 * dof < per_solve < 2 * 8 * 0.75 * dof
+
+
+DAMPED = "materials.steel.damping={mass: 20, stiffness: 0.01 ms}"
+
+
+@several
+@pytest.mark.parametrize("programs, change", [(1, ()), (1, ("simulation.method=newmark",)), (5, ("simulation.tolerance=0.01",))],
+                         ids=["dampers", "dampers by products with C", "errors of steps"])
+def test_work_of_dampers_and_errors_of_steps_take_no_vectors(buckens, mpirun, tmp_path, programs, change):
+    """They are sums: one program for dampers, and four for the error of a step. A vector would take two messages."""
+    (tmp_path / "cube.yaml").write_text(CUBE)
+    messages, steps = [], []
+    for end in ("2 ms", "4 ms"):
+        changes = sets(DAMPED, *change, "bodies.cube.coupling=none", "simulation.checkpoint=1 h", f"simulation.duration={end}",
+                       f"output.every={end}")
+        buckens("run", "cube.yaml", "-o", "one", *changes).must(0)
+        must(mpirun(2, "run", "cube.yaml", "-o", "out", *changes))
+        assert largest_difference(sensors(tmp_path / "out"), sensors(tmp_path / "one")) < 1e-9
+        expect_same_energies(tmp_path / "out", tmp_path / "one")
+        summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+        messages.append(summary["measures"]["messages_per_step"] * summary["steps"])
+        steps.append(summary["steps"])
+    # Both runs have the same two records and the same start. Steps alone take five programs and a solve, as above.
+    assert (messages[1] - messages[0]) / (steps[1] - steps[0]) < 22 + 3 * programs + 1
 
 
 def solves_of(directory):

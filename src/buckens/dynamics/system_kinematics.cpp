@@ -82,7 +82,7 @@ void motions_of(const model::Model& model, const model::State& state,
     const model::BodyState& s = state.bodies[k];
     out[k].frame = s.frame;
     if (!model.bodies[k].is_flexible()) continue;
-    const std::vector<linalg::Vector> there = linalg::NodalVector::row_products(s.d, s.d_dot);
+    const std::vector<linalg::Vector> there = linalg::NodalVector::row_products({&s.d, &s.d_dot});
     if (!there.empty()) {
       out[k].y = there[0];
       out[k].y_dot = there[1];

@@ -26,17 +26,25 @@ Eigen::Index NodalVector::size() const {
   return shared_->of != nullptr ? shared_->of->size() : shared_->numbers.size();
 }
 
-std::vector<Vector> NodalVector::row_products(const NodalVector& x, const NodalVector& y) {
-  const auto of = [](const NodalVector& z) {
-    return z.shared_ != nullptr ? z.shared_->of.get() : nullptr;
-  };
+std::vector<Vector> NodalVector::row_products(std::initializer_list<const NodalVector*> vectors) {
   // Brought or not: who has looked at them does not change a bit of the products.
-  if (of(x) == nullptr || of(x) != of(y)) return {};
-  RowProgram program(*x.shared_->of);
-  const RowProgram::Sums products = program.row_products({&x.shared_->there, &y.shared_->there});
+  const std::shared_ptr<DividedVectors> of = (*vectors.begin())->others();
+  if (!of) return {};
+  std::vector<const DividedVector*> there;
+  for (const NodalVector* x : vectors) {
+    if (x->others() != of) return {};
+    there.push_back(&x->shared_->there);
+  }
+  RowProgram program(*of);
+  const RowProgram::Sums products = program.row_products(there);
   program.run();
   const Vector all = program.sum(products);
-  return {all.head(all.size() / 2), all.tail(all.size() / 2)};
+  std::vector<Vector> out;
+  const auto count = static_cast<Eigen::Index>(there.size());
+  for (Eigen::Index k = 0; k < count; ++k) {
+    out.emplace_back(all.segment(k * all.size() / count, all.size() / count));
+  }
+  return out;
 }
 
 void NodalVector::bring() const {

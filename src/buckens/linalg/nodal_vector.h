@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <initializer_list>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -75,9 +76,14 @@ class NodalVector {
   DividedVector divided(const std::shared_ptr<DividedVectors>& of) const;
   // NOLINTNEXTLINE(google-explicit-constructor): for all that reads vectors
   operator const Vector&() const { return whole(); }
-  /// Products of the rows N of a body with two of its vectors, by one order, if other processes
-  /// have both, so that they need not come here. Otherwise empty.
-  static std::vector<Vector> row_products(const NodalVector& x, const NodalVector& y);
+  /// The vectors of other processes that this is one of, whether its numbers are here as well or
+  /// not; null: it is none.
+  std::shared_ptr<DividedVectors> others() const {
+    return shared_ != nullptr ? shared_->of : nullptr;
+  }
+  /// Products of the rows N of a body with some of its vectors, by one order, if other processes
+  /// have all of them, so that they need not come here. Otherwise empty.
+  static std::vector<Vector> row_products(std::initializer_list<const NodalVector*> vectors);
   Eigen::Index size() const;
   double operator[](Eigen::Index k) const { return whole()[k]; }
   double norm() const { return whole().norm(); }

@@ -88,7 +88,7 @@ void RowProgram::subtract(const DividedVector& y, const double* motion) {
   put_.all(motion, kMotionNumbers);
 }
 
-RowProgram::Sums RowProgram::row_products(std::initializer_list<const DividedVector*> vectors) {
+RowProgram::Sums RowProgram::row_products(std::span<const DividedVector* const> vectors) {
   put_(RowTask::row_products);
   put_(static_cast<int>(vectors.size()));
   for (const DividedVector* x : vectors) put_(x->number());
@@ -113,6 +113,13 @@ RowProgram::Sums RowProgram::total(std::initializer_list<const DividedVector*> v
 RowProgram::Sums RowProgram::square(const DividedVector& x) {
   put_(RowTask::square);
   put_(x.number());
+  return expect(1);
+}
+
+RowProgram::Sums RowProgram::inner_product(const DividedVector& x, const DividedVector& y) {
+  put_(RowTask::inner_product);
+  put_(x.number());
+  put_(y.number());
   return expect(1);
 }
 

@@ -47,7 +47,10 @@ class RowProgram {
   /// y ← y − Φ a. @param motion see RowInertia::subtract @pre no other copy of y is used
   void subtract(const DividedVector& y, const double* motion);
   /// N x of each, one after the other.
-  Sums row_products(std::initializer_list<const DividedVector*> vectors);
+  Sums row_products(std::span<const DividedVector* const> vectors);
+  Sums row_products(std::initializer_list<const DividedVector*> vectors) {
+    return row_products(std::span(vectors.begin(), vectors.size()));
+  }
   /// kCompared sums. @param of_largest weights of the largest change
   Sums compare(const DividedVector& x, const DividedVector& before, const DividedVector& weights,
                const DividedVector& of_largest);
@@ -55,6 +58,8 @@ class RowProgram {
   Sums total(std::initializer_list<const DividedVector*> vectors);
   /// Σ x²
   Sums square(const DividedVector& x);
+  /// Σ x y
+  Sums inner_product(const DividedVector& x, const DividedVector& y);
   /// x times or divided by weights, row by row.
   DividedVector scale(const DividedVector& x, const DividedVector& weights, bool divides);
 

@@ -109,6 +109,9 @@ void RowWorker::do_task(RowTask task, const Space& space, Take& take, RowPeers& 
     case RowTask::square:
       add_square(space, take);
       break;
+    case RowTask::inner_product:
+      add_inner_product(space, take);
+      break;
     case RowTask::scale:
       scale(space, take);
       break;
@@ -243,6 +246,13 @@ void RowWorker::add_total(const Space& space, Take& take) {
 void RowWorker::add_square(const Space& space, Take& take) {
   const Eigen::Map<const Vector> x(at(take.next<int>()), static_cast<Eigen::Index>(space.rows()));
   sums_.push_back(x.squaredNorm());
+}
+
+void RowWorker::add_inner_product(const Space& space, Take& take) {
+  const auto n = static_cast<Eigen::Index>(space.rows());
+  const Eigen::Map<const Vector> x(at(take.next<int>()), n);
+  const Eigen::Map<const Vector> y(at(take.next<int>()), n);
+  sums_.push_back(x.dot(y));
 }
 
 void RowWorker::scale(const Space& space, Take& take) {

@@ -80,6 +80,7 @@ class RowWorker {
   void compare(const Space& space, Take& take);
   void add_total(const Space& space, Take& take);
   void add_square(const Space& space, Take& take);
+  void add_inner_product(const Space& space, Take& take);
   void scale(const Space& space, Take& take);
   void do_pairs(RowTask task, const Space& space, Take& take, RowPeers& peers);
   /// Brings the units beside those here.

@@ -94,7 +94,7 @@ BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme&
   find_row_answers();
   rigid_row_values_ = row_values(part.sieve.Phi());
   if (inverse_.size() > 0 && part.num_dofs() < num_rows()) small_ = answers_by_variables();
-  divide();
+  divide(source.vectors);
 }
 
 void BodyStepOperator::find_row_answers() {
@@ -106,8 +106,8 @@ void BodyStepOperator::find_row_answers() {
 }
 
 /// Gives the responses to other processes if they do the work on the body's vectors.
-void BodyStepOperator::divide() {
-  divided_ = DividedBody::make(*this, *part_, *responses_);
+void BodyStepOperator::divide(linalg::SharedStore* known) {
+  divided_ = DividedBody::make(*this, *part_, *responses_, known);
   if (!divided_) return;
   auto left = std::make_shared<BodyResponses>();
   left->source = responses_->source;

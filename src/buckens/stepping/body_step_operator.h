@@ -25,6 +25,8 @@ struct FactorSource {
   linalg::SolveExchange* exchange = nullptr;
   /// Makes the factor if nobody has it; empty: linalg::make_large_factor().
   linalg::MakeFactor make{};
+  /// See StepSettings::vectors.
+  linalg::SharedStore* vectors = nullptr;
 };
 
 /// Everything a step of fixed length needs of one flexible body: one factorisation of K̂ = m M + c
@@ -123,7 +125,7 @@ class BodyStepOperator final : public BodyAnswer {
   void find_nodal(const FactorSource& source);
   void find_responses(const FactorSource& source);
   void find_row_answers();
-  void divide();
+  void divide(linalg::SharedStore* known);
   std::shared_ptr<const BodyResponses> make_responses(const BodyResponses::Source& source);
   SmallBodyAnswers answers_by_variables() const;
   /// X ← Y K̂⁻¹ X, as part of the set-up.

@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "buckens/linalg/row_order.h"
 #include "buckens/stepping/body_step_operator.h"
 
 namespace buckens::stepping {
@@ -32,11 +33,35 @@ std::shared_ptr<linalg::DividedVectors> vectors_of(const BodyStepOperator& op,
       part.rows);
 }
 
+/// Those of a body, whatever the length of its steps.
+struct KnownVectors {
+  const body::FlexiblePart* part;
+  linalg::SharedRowOrder order;
+  std::shared_ptr<linalg::DividedVectors> vectors;
+};
+
+/// They are known as long as a state or an operator has one of them.
+std::shared_ptr<linalg::DividedVectors> vectors_of(const BodyStepOperator& op,
+                                                   const body::FlexiblePart& part,
+                                                   linalg::SharedStore& known) {
+  const linalg::SharedRowOrder order = op.shared_factor()->row_order();
+  const auto own = known.find_or_make<KnownVectors>(
+      [&](const KnownVectors& of) {
+        return of.part == &part && linalg::is_same_order(of.order, order);
+      },
+      [&] {
+        return std::make_shared<const KnownVectors>(
+            KnownVectors{&part, order, vectors_of(op, part)});
+      });
+  return {own, own->vectors.get()};
+}
+
 }  // namespace
 
 std::shared_ptr<const DividedBody> DividedBody::make(const BodyStepOperator& op,
                                                      const body::FlexiblePart& part,
-                                                     const BodyResponses& responses) {
+                                                     const BodyResponses& responses,
+                                                     linalg::SharedStore* known) {
   const linalg::Factor* factor = op.shared_factor();
   const InertialLoad& inertial = op.inertial();
   const bool suits = factor != nullptr && factor->solves_divided() && !op.is_quasi_static() &&
@@ -44,12 +69,14 @@ std::shared_ptr<const DividedBody> DividedBody::make(const BodyStepOperator& op,
                      (!inertial.is_damped() || inertial.is_proportional() || part.C.is_divided()) &&
                      part.geometric == nullptr;
   if (!suits) return nullptr;
-  return std::shared_ptr<const DividedBody>(new DividedBody(op, part, responses));
+  return std::shared_ptr<const DividedBody>(new DividedBody(op, part, responses, known));
 }
 
 DividedBody::DividedBody(const BodyStepOperator& op, const body::FlexiblePart& part,
-                         const BodyResponses& responses)
-    : nodal_(op.nodal()), order_(op.shared_factor()->row_order()), vectors_(vectors_of(op, part)) {
+                         const BodyResponses& responses, linalg::SharedStore* known)
+    : nodal_(op.nodal()),
+      order_(op.shared_factor()->row_order()),
+      vectors_(known != nullptr ? vectors_of(op, part, *known) : vectors_of(op, part)) {
   if (nodal_ == nullptr) M_ = part.fe.M;
   if (op.inertial().is_damped() && !op.inertial().is_proportional()) C_ = part.C;
   const auto put_columns = [&](const linalg::Matrix& columns, std::vector<DividedVector>& out) {

@@ -7,6 +7,7 @@
 
 #include "buckens/linalg/nodal_vector.h"
 #include "buckens/linalg/row_program.h"
+#include "buckens/linalg/shared_store.h"
 #include "buckens/model/state.h"
 #include "buckens/stepping/body_responses.h"
 
@@ -21,9 +22,11 @@ class BodyStepOperator;
 class DividedBody {
  public:
   /// Null unless several processes share the factor of the body, which no given stresses stiffen.
+  /// @param known where the vectors of the body may be found that it has for another length of step
   static std::shared_ptr<const DividedBody> make(const BodyStepOperator& op,
                                                  const body::FlexiblePart& part,
-                                                 const BodyResponses& responses);
+                                                 const BodyResponses& responses,
+                                                 linalg::SharedStore* known);
 
   linalg::DividedVectors& vectors() const { return *vectors_; }
   linalg::DividedVector of(const linalg::NodalVector& x) const { return x.divided(vectors_); }
@@ -59,7 +62,7 @@ class DividedBody {
 
  private:
   DividedBody(const BodyStepOperator& op, const body::FlexiblePart& part,
-              const BodyResponses& responses);
+              const BodyResponses& responses, linalg::SharedStore* known);
 
   const body::NodalMotion* nodal_;  // null: variable by variable
   linalg::SharedRowOrder order_;    // that of the factor, of all that is divided here

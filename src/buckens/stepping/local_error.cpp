@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "buckens/body/body_lengths.h"
+#include "buckens/linalg/row_program.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::stepping {
@@ -41,6 +42,7 @@ LocalError::LocalError(const model::Model& model, const ErrorTolerance& toleranc
     : model_(model),
       tolerance_(tolerance),
       scale_(model.bodies.size()),
+      scale_there_(model.bodies.size()),
       largest_(model.bodies.size(), 0.0),
       expected_(model.bodies.size(), 0.0) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
@@ -58,8 +60,36 @@ LocalError::Point LocalError::point_of(const model::State& state) const {
   return out;
 }
 
-double LocalError::size_of(std::size_t b, const Vector& d) const {
-  return d.size() == 0 ? 0.0 : d.cwiseProduct(scale_[b]).cwiseAbs().maxCoeff();
+double LocalError::size_of(std::size_t b, const Terms& terms) {
+  const auto& [weight, first] = terms.front();
+  if (first->size() == 0) return 0.0;
+  if (const auto others = first->others()) return size_there(b, terms, others);
+  const auto size = [&](const Vector& d) {
+    return d.cwiseProduct(scale_[b]).cwiseAbs().maxCoeff();
+  };
+  if (terms.size() == 1 && weight == 1.0) return size(first->whole());
+  Vector sum = weight * first->whole();
+  for (std::size_t k = 1; k < terms.size(); ++k) {
+    if (terms[k].first != 0.0) sum += terms[k].first * terms[k].second->whole();
+  }
+  return size(sum);
+}
+
+double LocalError::size_there(std::size_t b, const Terms& terms,
+                              const std::shared_ptr<linalg::DividedVectors>& of) {
+  linalg::RowProgram program(*of);
+  ScaleThere& there = scale_there_[b];
+  if (there.of != of) there = {of, of->put(scale_[b]), program.combine({})};
+  std::vector<linalg::DividedVector> vectors;
+  for (const auto& [weight, d] : terms) vectors.push_back(d->divided(of));
+  std::vector<std::pair<double, const linalg::DividedVector*>> weighted;
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    weighted.emplace_back(terms[k].first, &vectors[k]);
+  }
+  const linalg::DividedVector sum = program.combine(weighted);
+  const auto compared = program.compare(sum, there.zero, there.scale, there.scale);
+  program.run();
+  return program.most(compared, 2);
 }
 
 void LocalError::start(const model::State& state) {
@@ -109,19 +139,18 @@ LocalError::Difference LocalError::second_difference(double t) const {
   return {{1.0 / (h * (t - b)), 1.0 / (-h * (a - b)), 1.0 / ((b - t) * (b - a))}, 0.0, 0.0};
 }
 
-double LocalError::difference_of(std::size_t b, const model::BodyState& end,
-                                 const Difference& f) const {
+double LocalError::difference_of(std::size_t b, const model::BodyState& end, const Difference& f) {
   // The first step leaves out d̈: where a load sets in, that of a stiff vibration says nothing.
-  Vector sum = f.position[0] * end.d.whole();
+  Terms terms = {{f.position[0], &end.d}};
   for (std::size_t k = 0; k + 1 < f.position.size(); ++k) {
-    sum += f.position[k + 1] * past_[k].d[b].whole();
+    terms.emplace_back(f.position[k + 1], &past_[k].d[b]);
   }
-  if (f.rate != 0.0) sum += f.rate * start_.d_dot[b].whole();
-  return size_of(b, sum);
+  if (f.rate != 0.0) terms.emplace_back(f.rate, &start_.d_dot[b]);
+  return size_of(b, terms);
 }
 
 double LocalError::deformation_ratio(std::size_t b, const model::BodyState& end,
-                                     const Scheme& scheme, double t, double share) const {
+                                     const Scheme& scheme, double t, double share) {
   const double h = t - past_[0].t;
   const double seen = std::max({largest_[b], expected_[b], size_of(b, end.d)});
   const double admitted = tolerance_.relative * seen + tolerance_.absolute * model_.length;

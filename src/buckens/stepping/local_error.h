@@ -2,9 +2,12 @@
 #pragma once
 
 #include <deque>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "buckens/base/saved_values.h"
+#include "buckens/linalg/divided_vectors.h"
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
 #include "buckens/stepping/scheme.h"
@@ -73,17 +76,31 @@ class LocalError {
   Difference third_difference(double t) const;
   Difference second_difference(double t) const;
   Point point_of(const model::State& state) const;
-  double size_of(std::size_t b, const linalg::Vector& d) const;
+  /// Weighted deformations of a body.
+  using Terms = std::vector<std::pair<double, const linalg::NodalVector*>>;
+  /// Largest length of Σ weight d [m], where other processes have them there.
+  double size_of(std::size_t b, const Terms& terms);
+  double size_of(std::size_t b, const linalg::NodalVector& d) {
+    return size_of(b, Terms{{1.0, &d}});
+  }
+  double size_there(std::size_t b, const Terms& terms,
+                    const std::shared_ptr<linalg::DividedVectors>& of);
   /// Size of a divided difference of the deformation [m/sⁿ].
-  double difference_of(std::size_t b, const model::BodyState& end, const Difference& f) const;
+  double difference_of(std::size_t b, const model::BodyState& end, const Difference& f);
   /// Error of the deformation relative to the admissible one. @param t instant of the end
   double deformation_ratio(std::size_t b, const model::BodyState& end, const Scheme& scheme,
-                           double t, double share) const;
+                           double t, double share);
 
   const model::Model& model_;
   ErrorTolerance tolerance_;
   std::vector<linalg::Vector> scale_;  ///< per body and nodal variable: converts it to a length
-  std::deque<Point> past_;             ///< last point first, at most three
+  /// The same, for vectors that other processes have.
+  struct ScaleThere {
+    std::shared_ptr<linalg::DividedVectors> of;
+    linalg::DividedVector scale, zero;
+  };
+  std::vector<ScaleThere> scale_there_;
+  std::deque<Point> past_;  ///< last point first, at most three
   Start start_;
   std::vector<double> largest_;   ///< deformation so far, per body [m]
   std::vector<double> expected_;  ///< from the very first trial, per body [m]

@@ -55,6 +55,7 @@ Stepper& StepLadder::rung(int k) {
 std::unique_ptr<Stepper> StepLadder::make_stepper(int k) {
   StepSettings settings = settings_;
   settings.step = step(k);
+  settings.vectors = &vectors_;
   auto out = std::make_unique<Stepper>(model_, settings, rows_in_use_);
   factorisations_.resize(std::max(factorisations_.size(), static_cast<std::size_t>(k) + 1), 0);
   for (std::size_t b = 0; b < model_.bodies.size(); ++b) {

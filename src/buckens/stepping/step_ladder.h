@@ -61,6 +61,7 @@ class StepLadder {
 
   const model::Model& model_;
   StepSettings settings_;
+  linalg::SharedStore vectors_;  // of bodies, for all rungs: states of one go on in the next
   std::vector<int> rows_in_use_;
   Limits limits_;
   std::vector<Rung> rungs_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "buckens/linalg/ranks.h"
+#include "buckens/linalg/shared_store.h"
 #include "buckens/linalg/simd_level.h"
 #include "buckens/linalg/solve_exchange.h"
 #include "buckens/stepping/scheme.h"
@@ -40,6 +41,9 @@ struct StepSettings {
   /// Factorises the step matrices of bodies instead of linalg::make_large_factor(); an exchange
   /// has its own.
   linalg::MakeFactor make_factor;
+  /// Vectors that other processes have, for steppers of other lengths of step; null: none in
+  /// common.
+  linalg::SharedStore* vectors = nullptr;
 
   /// The parameter of the method, for Scheme.
   double method_parameter() const {

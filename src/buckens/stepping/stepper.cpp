@@ -43,7 +43,8 @@ std::shared_ptr<BodyStepOperator> factorised(const body::Body& body, const Schem
   try {
     const BodyStepOperator* first = twin == known.end() ? nullptr : twin->get();
     return std::make_shared<BodyStepOperator>(
-        *body.flexible, scheme, FactorSource{first, settings.exchange, settings.make_factor});
+        *body.flexible, scheme,
+        FactorSource{first, settings.exchange, settings.make_factor, settings.vectors});
   } catch (const NumericalError& error) {
     throw NumericalError(fmt::format("body \"{}\": {}", body.name, error.what()));
   }

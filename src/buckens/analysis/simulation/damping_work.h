@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+#include <optional>
+
 #include "buckens/base/saved_values.h"
 #include "buckens/dynamics/forces.h"
+#include "buckens/linalg/nodal_vector.h"
+#include "buckens/linalg/row_program.h"
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
 #include "buckens/stepping/inertial_load.h"
@@ -29,6 +34,9 @@ enum class RatesAtEnd { are_smooth, have_jumped };
 /// damps the motion before them. Otherwise, and for reduced bodies, h v̄ᵀC v̄ is formed with the mean
 /// v̄ of the rates at both ends: what Newmark's method dissipates exactly, also of vibrations that
 /// the step does not resolve. Theory: docs/theory/05-time-integration.md §6.
+///
+/// Where other processes have the vectors of the body, they form all of these, and sums come here
+/// (damping_work_divided.cpp).
 class DampingWork {
  public:
   /// @param holds_at_states whether states satisfy the equations of motion: not those of methods
@@ -59,13 +67,29 @@ class DampingWork {
   void begin_at(const model::BodyState& s);
   /// h v̄ᵀC v̄ of the step to this state.
   /// @param d_dot rates at its end
-  double direct_work(const linalg::Vector& d_dot, double h);
+  double direct_work(const linalg::NodalVector& d_dot, double h);
   double mass_power(const linalg::Vector& d_dot);
   /// Taken by C = α M + β K. @param elastic K d at the end of the step, @param power by α M there
   double proportional_work(const linalg::Vector& d, const linalg::Vector& elastic, double power,
                            double h);
   /// K d at the state from the balance of loads.
-  void find_elastic_load(const model::State& state, const dynamics::Forces& forces, double h);
+  void find_elastic_load(const model::State& state, const dynamics::Forces& forces, double h,
+                         linalg::Vector& out);
+  bool knows_rate(double h) const;
+  /// Notes the end of a step. @param elastic K d there, replaced
+  void go_on(linalg::NodalVector& elastic, double power, double step);
+
+  // Of vectors that other processes have.
+  struct Columns;
+  const Columns& columns(const std::shared_ptr<linalg::DividedVectors>& of);
+  void begin_there(const model::BodyState& s, const std::shared_ptr<linalg::DividedVectors>& of);
+  double direct_work_there(const linalg::NodalVector& d_dot, double h,
+                           const std::shared_ptr<linalg::DividedVectors>& of);
+  double work_there(const model::State& state, const dynamics::Forces& forces, bool is_formed,
+                    double h, const std::shared_ptr<linalg::DividedVectors>& of);
+  linalg::DividedVector elastic_load_there(const model::State& state,
+                                           const dynamics::Forces& forces, double h,
+                                           const Columns& columns, linalg::RowProgram& program);
 
   const body::Body* body_;
   std::size_t index_;
@@ -73,11 +97,13 @@ class DampingWork {
   bool forms_elastic_load_ = false;  // in each step, in place of the differences
   double beta_ = 0;
   std::optional<stepping::InertialLoad> mass_;
-  double power_ = 0;                             // of α M at the last state [W]
-  double t_ = 0, last_step_ = 0;                 // 0: nothing is known of the rate of K d
-  linalg::Vector rates_;                         // at the last state, where C is used
-  linalg::Vector d_, elastic_, elastic_before_;  // K d at the last state and the one before
-  linalg::Vector now_, motion_, image_;          // scratch
+  double power_ = 0;                                  // of α M at the last state [W]
+  double t_ = 0, last_step_ = 0;                      // 0: nothing is known of the rate of K d
+  linalg::NodalVector rates_;                         // at the last state, where C is used
+  linalg::NodalVector d_, elastic_, elastic_before_;  // K d at the last state and the one before
+  linalg::NodalVector now_;                           // scratch
+  linalg::Vector motion_, image_;                     // scratch
+  std::shared_ptr<const Columns> columns_;
   long products_ = 0;
 };
 

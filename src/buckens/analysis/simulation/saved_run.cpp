@@ -29,10 +29,10 @@ void DampingWork::visit_saved(const base::SaveVisit& visit) {
   visit.number("last_step", last_step_);
   visit.count("products", products_, 0, kMostCounted);
   const Eigen::Index n = body_->num_dofs();
-  if (is_direct_) return visit.vector("rates", rates_, n);
-  visit.vector("d", d_, n);
-  visit.vector("elastic", elastic_, n);
-  visit.vector_or_none("elastic_before", elastic_before_, n);
+  if (is_direct_) return model::visit_nodal(visit, "rates", n, false, rates_);
+  model::visit_nodal(visit, "d", n, false, d_);
+  model::visit_nodal(visit, "elastic", n, false, elastic_);
+  model::visit_nodal(visit, "elastic_before", n, true, elastic_before_);
 }
 
 void WorkAccount::visit_saved(const base::SaveVisit& visit) {

@@ -171,6 +171,12 @@ TEST_P(RowsOfABody, ComparesAndTotals) {
   EXPECT_NEAR(added[3], d.sum() + rate.sum(), kOfOtherOrder * size());
 }
 
+TEST_P(RowsOfABody, FormsInnerProducts) {
+  const Vector sums = total(run(program(RowTask::inner_product, 0, 1, RowTask::square, 1)));
+  EXPECT_NEAR(sums[0], d.dot(rate), kOfOtherOrder * d.norm() * rate.norm());
+  EXPECT_NEAR(sums[1], rate.squaredNorm(), kOfOtherOrder * sums[1]);
+}
+
 TEST_P(RowsOfABody, MemoryOfDroppedVectorsIsUsedAgain) {
   const double* before = threads.worker(0).rows(RowThreads::kSpace, 2).data();
   run(program(RowTask::drop, 2, RowTask::combine, 9, false, 0));
