@@ -1,25 +1,39 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Bodies large enough to be distributed over processes, of each kind of elements and links (test_mpi.py)."""
+"""Bodies large enough to be distributed over processes, of each kind of elements and links (test_mpi.py).
+
+They are as small as tests of results allow (mpi_runs.ENVIRONMENT says from how many variables on bodies are distributed); those
+of memory take larger ones.
+"""
 
 import json
 
-SHELLS = """\
+SHELL_SIDE = 24
+
+
+def shells(side=SHELL_SIDE):
+    return f"""\
 buckens: 1
 title: A plate large enough to be distributed
 gravity: [0, 0, -9.81]
-materials: {steel: {E: 210 GPa, nu: 0.3, rho: 7850}}
+materials: {{steel: {{E: 210 GPa, nu: 0.3, rho: 7850}}}}
 bodies:
   plate:
-    at: {position: [0, -0.1, 0]}
-    mesh: {plate: {size: [0.2, 0.2], divisions: [58, 58], thickness: 2 mm}, material: steel}
-    interfaces: {edge: {set: [x0]}}
-joints: {hinge: {revolute: {between: [ground, plate/edge], axis: [0, 1, 0]}}}
-simulation: {duration: 0.5 ms, step: 0.1 ms}
-output: {every: 0.1 ms, sensors: {force: {joint-force: hinge}, corner: {position: plate/corner_11}}}
+    at: {{position: [0, -0.1, 0]}}
+    mesh: {{plate: {{size: [0.2, 0.2], divisions: [{side}, {side}], thickness: 2 mm}}, material: steel}}
+    interfaces: {{edge: {{set: [x0]}}}}
+joints: {{hinge: {{revolute: {{between: [ground, plate/edge], axis: [0, 1, 0]}}}}}}
+simulation: {{duration: 0.5 ms, step: 0.1 ms}}
+output: {{every: 0.1 ms, sensors: {{force: {{joint-force: hinge}}, corner: {{position: plate/corner_11}}}}}}
 """
 
 
-def grid_of_beams(side=60):
+SHELLS = shells()
+
+
+GRID_SIDE = 26
+
+
+def grid_of_beams(side=GRID_SIDE):
     """A square grid of beams, with bars, shells, masses and springs: each kind of elements that a body can have but solids."""
 
     def node(i, j):
@@ -52,23 +66,29 @@ def grid_of_beams(side=60):
         "output": {"every": 0.0001, "sensors": {"force": {"joint-force": "hinge"}, "corner": {"position": f"grid/{node(side - 1, side - 1)}"}}}})
 
 
-def linked_grid():
+def linked_grid(side=GRID_SIDE):
     """The same with links of each kind, one of which leaves a node motions that nothing holds."""
-    model = json.loads(grid_of_beams())
+    model = json.loads(grid_of_beams(side))
     structure = model["bodies"]["grid"]["structure"]
-    structure["nodes"].update({"hub": [0.3, 0.3, 0.05], "mean": [0.2, 0.2, 0.02], "twin": structure["nodes"]["n5_50"], "far": [0.05, 0.6, 0.01]})
+    half, last = side // 2, side - 3
+
+    def place(i, j, height):
+        return [0.01 * i, 0.01 * j, height]
+
+    structure["nodes"].update({"hub": place(half, half, 0.05), "mean": place(half, half - 3, 0.02),
+                               "twin": structure["nodes"][f"n5_{last}"], "far": place(5, side, 0.01)})
     structure["beams"].append({"between": ["twin", "far"], "elements": 2, "section": "strip", "material": "steel"})
     structure["masses"].append({"at": "hub", "mass": 0.1, "inertia": [1e-5, 1e-5, 1e-5]})
     variables = ("x", "y", "z", "rotation-x", "rotation-y", "rotation-z")
     structure["links"].update({
-        "rigid": [{"reference": "hub", "nodes": ["n29_29", "n29_31", "n31_29", "n31_31", "n10_50"]}],
-        "averages": [{"reference": "mean", "nodes": ["n3_3", "n40_3", "n20_40", "n50_50"], "variables": ["z"]}],
-        "equations": [{"terms": [{"node": "twin", "variable": v}, {"node": "n5_50", "variable": v, "coefficient": -1}]} for v in variables]})
+        "rigid": [{"reference": "hub", "nodes": [*(f"n{i}_{j}" for i in (half - 1, half + 1) for j in (half - 1, half + 1)), f"n10_{last}"]}],
+        "averages": [{"reference": "mean", "nodes": ["n3_3", f"n{last}_3", f"n{half}_{last}", f"n{last}_{last}"], "variables": ["z"]}],
+        "equations": [{"terms": [{"node": "twin", "variable": v}, {"node": f"n5_{last}", "variable": v, "coefficient": -1}]} for v in variables]})
     model["output"]["sensors"].update({"hub": {"position": "grid/hub"}, "mean": {"position": "grid/mean"}})
     return json.dumps(model)
 
 
-def deck_with_links(side=19):
+def deck_with_links(side=11):
     """A cube of solids with what decks have in place of joints: a spider on one face, a mass on the mean of another."""
     at = {}
     lines = []
@@ -108,20 +128,27 @@ simulation: {duration: 0.5 ms, step: 0.1 ms}
 output: {every: 0.1 ms, sensors: {force: {joint-force: hinge}, end: {position: cube/end}}}
 """
 
-CUBE = """\
+SIDE = 10
+
+
+def cube(side=SIDE):
+    return f"""\
 buckens: 1
 title: A cube large enough to be distributed
 gravity: [0, -9.81, 0]
-materials: {steel: {E: 210 GPa, nu: 0.3, rho: 7850}}
+materials: {{steel: {{E: 210 GPa, nu: 0.3, rho: 7850}}}}
 bodies:
   cube:
-    at: {position: [0, -0.05, -0.05]}
-    mesh: {box: {size: [0.1, 0.1, 0.1], divisions: [18, 18, 18], element: hex8}, material: steel}
-    interfaces: {bearing: {face: x0}}
-joints: {ball: {spherical: {between: [ground, cube/bearing]}}}
-simulation: {duration: 0.5 ms, step: 0.1 ms}
-output: {every: 0.1 ms, sensors: {force: {joint-force: ball}, corner: {position: cube/corner_111}}}
+    at: {{position: [0, -0.05, -0.05]}}
+    mesh: {{box: {{size: [0.1, 0.1, 0.1], divisions: [{side}, {side}, {side}], element: hex8}}, material: steel}}
+    interfaces: {{bearing: {{face: x0}}}}
+joints: {{ball: {{spherical: {{between: [ground, cube/bearing]}}}}}}
+simulation: {{duration: 0.5 ms, step: 0.1 ms}}
+output: {{every: 0.1 ms, sensors: {{force: {{joint-force: ball}}, corner: {{position: cube/corner_111}}}}}}
 """
+
+
+CUBE = cube()
 
 # Two of them, which have one factor.
 TWINS = CUBE.replace("joints:", "  other:\n    like: cube\n    at: {position: [0.2, -0.05, -0.05]}\njoints:").replace(

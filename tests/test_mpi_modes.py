@@ -20,9 +20,9 @@ simulation: {{duration: 1 ms, step: 1 ms}}
 """
 # Frequencies of a cube are double and triple, those of a square plate single and double.
 MESHES = {
-    "hex8": "{box: {size: [0.1, 0.1, 0.1], divisions: [18, 18, 18], element: hex8}, material: steel}",
-    "tet10": "{box: {size: [0.1, 0.1, 0.1], divisions: [9, 9, 9], element: tet10}, material: steel}",
-    "shells": "{plate: {size: [0.2, 0.2], divisions: [58, 58], thickness: 2 mm}, material: steel}",
+    "hex8": "{box: {size: [0.1, 0.1, 0.1], divisions: [10, 10, 10], element: hex8}, material: steel}",
+    "tet10": "{box: {size: [0.1, 0.1, 0.1], divisions: [5, 5, 5], element: tet10}, material: steel}",
+    "shells": "{plate: {size: [0.2, 0.2], divisions: [24, 24], thickness: 2 mm}, material: steel}",
 }
 WANTED = 14
 
@@ -137,6 +137,7 @@ def test_bodies_that_are_not_shared(mpirun, tmp_path):
 def test_too_little_memory_for_the_vectors_of_a_search(tmp_path):
     """On one process only, which finds out before the search: the first one tells it once, and all end."""
     write_model(tmp_path, "hex8")
+    (tmp_path / "model.yaml").write_text((tmp_path / "model.yaml").read_text().replace("[10, 10, 10]", "[18, 18, 18]"))
     limited = "[ $OMPI_COMM_WORLD_RANK = 0 ] || ulimit -v 1500000; exec \"$@\""
     command = [MPIRUN, "-n", "2", "sh", "-c", limited, "sh", PROGRAM, "modes", "model.yaml", "--count", "3000"]
     result = must(subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=240, check=False, env=ENVIRONMENT,

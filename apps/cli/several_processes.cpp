@@ -3,14 +3,17 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <chrono>
 #include <condition_variable>
 #include <csignal>
 #include <cstdlib>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -50,6 +53,31 @@ int refuse(int argc, const char* const* argv, const linalg::StartedProcesses& st
                 fmt::format("mpirun has started {} processes, which share large solves by PETSc: "
                             "{}; or run it without mpirun",
                             started.count, linalg::missing_grid_solver()));
+}
+
+/// From how many variables on bodies are shared, if the environment says it.
+constexpr char kVariablesName[] = "BUCKENS_MPI_VARIABLES";
+
+/// @return false if what the environment says is no such number
+bool read_shared_size() {
+  const char* text = std::getenv(kVariablesName);
+  if (text == nullptr || *text == '\0') return true;
+  const std::string_view given = text;
+  int variables = 0;
+  const auto [end, failed] = std::from_chars(given.data(), given.data() + given.size(), variables);
+  if (failed != std::errc() || end != given.data() + given.size() || variables < 1) return false;
+  linalg::share_from(variables);
+  return true;
+}
+
+int refuse_shared_size(int argc, const char* const* argv, const linalg::StartedProcesses& started) {
+  if (started.rank > 0) return static_cast<int>(ExitCode::input);
+  return report(argc, argv, ExitCode::input, "input",
+                fmt::format("the environment variable {} is \"{}\", but should be the number of "
+                            "variables from which on processes share a body, 1 to {}; unset it for "
+                            "{}",
+                            kVariablesName, std::getenv(kVariablesName),
+                            std::numeric_limits<int>::max(), linalg::kWorthSharing));
 }
 
 /// Time for the processes to find each other. MPI itself waits for ever if one of them never joins.
@@ -136,6 +164,7 @@ int run_together(int argc, const char* const* argv) {
   const linalg::StartedProcesses started = linalg::started_processes();
   if (repeats_sweep(argc, argv)) return refuse_sweep(argc, argv, started);
   if (!linalg::missing_grid_solver().empty()) return refuse(argc, argv, started);
+  if (!read_shared_size()) return refuse_shared_size(argc, argv, started);
   std::optional<JoinLimit> limit(std::in_place, started, asks(argc, argv, "--json"));
   linalg::Ranks ranks;
   limit.reset();

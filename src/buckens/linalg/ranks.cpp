@@ -31,9 +31,8 @@ namespace buckens::linalg {
 
 namespace {
 
-constexpr Eigen::Index kWorthSharing = 20000;
-
 int count_of_ranks = 1;
+Eigen::Index worth_sharing = kWorthSharing;
 
 std::optional<int> number_in_environment(const char* name) {
   const char* text = std::getenv(name);
@@ -208,8 +207,10 @@ Traffic Ranks::traffic() {
 }
 
 bool is_shared_work(Eigen::Index variables) {
-  return count_of_ranks > 1 && variables >= kWorthSharing;
+  return count_of_ranks > 1 && variables >= worth_sharing;
 }
+
+void share_from(Eigen::Index variables) { worth_sharing = variables; }
 
 std::shared_ptr<const Factor> make_large_factor(const MatrixSum& A) {
   if (is_shared_work(A.size())) return std::make_shared<const SharedFactor>(A);

@@ -62,9 +62,14 @@ class Ranks {
   int rank_ = 0;
 };
 
-/// Whether several processes share the work with so many variables: smaller factors are solved
-/// faster than vectors are sent.
+/// Smaller factors are solved faster than vectors are sent.
+constexpr Eigen::Index kWorthSharing = 20000;
+
+/// Whether several processes share the work with so many variables.
 bool is_shared_work(Eigen::Index variables);
+
+/// From how many variables on they do, instead of kWorthSharing. @pre there is no body yet
+void share_from(Eigen::Index variables);
 
 /// What makes the factors of bodies unless they iterate: SparseCholesky in this process, or, where
 /// several share the work and A is large, MUMPS, with the factor distributed over all. No process
