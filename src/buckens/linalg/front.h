@@ -21,7 +21,7 @@ class Front {
   const Trapezoid& own() const { return own_; }
   double* own_values() const { return own_values_; }
 
-  /// Takes memory, which is set to zero.
+  /// Takes memory, which is set to zero. @param rest null if others do without it
   void begin(double* own, double* rest, TaskPool* pool);
   /// Column of the whole front: [i] is row i, for i ≥ j.
   double* column(int j) const {
@@ -35,9 +35,12 @@ class Front {
   /// products are made of the same tiles whatever the pool, so that no bit depends on it.
   /// @return first column without a positive pivot, −1 if there is none
   int eliminate(TaskPool* pool);
+  /// Computes L in the blocks begin … end of the own columns, from which those before have been
+  /// subtracted; nothing is subtracted from other columns. @return as above
+  int eliminate_blocks(int begin, int end, TaskPool* pool);
 
  private:
-  void update_tile(int p, int row, int rows);
+  void update_tile(int begin, int p, int row, int rows);
   void factorise_diagonal(int p, int& failed);
   void divide_tile(int p, int row, int rows);
   void update_rest(int q, int row, int rows);

@@ -2,29 +2,24 @@
 #include "buckens/linalg/multifrontal.h"
 
 #include <algorithm>
-#include <map>
 #include <mutex>
 #include <utility>
 #include <vector>
 
 #include "buckens/linalg/cholmod_factor.h"
+#include "buckens/linalg/counted_memory.h"
 #include "buckens/linalg/front.h"
+#include "buckens/linalg/front_entries.h"
+#include "buckens/linalg/front_plan.h"
 #include "buckens/linalg/panel_kernels.h"
 #include "buckens/linalg/rooms.h"
+#include "buckens/linalg/top_fronts.h"
 #include "buckens/linalg/tree_tasks.h"
 
 namespace buckens::linalg {
 
 namespace {
 
-// Subtrees per thread: enough to even out their work, few enough to leave large ones.
-constexpr double kSubtreesPerThread = 6.0;
-// Fronts of up to so many products have few tiles: threads are busier with one such front each than
-// with sharing one.
-constexpr double kFewTiles = 1e9;
-// But no such front may take longer than this share of what each thread does: the others would wait
-// for it.
-constexpr double kLongest = 1.0 / 25.0;
 // Products from which sharing a front among threads costs less than it gains.
 constexpr double kSharedFront = 2e7;
 
@@ -32,137 +27,65 @@ class Multifrontal {
  public:
   Multifrontal(const MatrixSum& A, const SupernodeTree& tree, const TakeColumns& take,
                TaskPool* pool)
-      : A_(A),
-        tree_(tree),
+      : tree_(tree),
         take_(take),
         pool_(pool),
-        place_(at(tree.size)),
+        entries_(A, tree),
+        plan_(tree, threads()),
         failed_(tree.size),
-        rest_(at(tree.count)) {
-    for (int c = 0; c < tree.size; ++c) place_[at(tree.permutation[at(c)])] = c;
-  }
+        rooms_(count_),
+        rest_(at(tree.count)),
+        local_(at(tree.size)),
+        top_(
+            tree, [this](int s, const Front& f) { entries_.add(s, f, local_); }, count_) {}
 
-  void run() {
-    divide();
-    run_tree(pool_, above_, [this](int k) {
-      const Part& part = parts_[at(k)];
-      part.is_single ? factorise_single(part.root) : factorise_subtree(part.begin, part.root);
-    });
-    rooms_.clear();
-    std::vector<int> local(at(tree_.size));
-    for (const int s : shared_) {
-      if (is_lost(s)) break;  // so are those after it
-      StreamingMemory own(at64(front(s).own_size()));
-      factorise_top(s, own.data(), local, work(s) >= kSharedFront ? pool_ : nullptr);
+  double run() {
+    const auto part = [this](int k) { factorise_part(k); };
+    const auto shared = [this](int s) { share(s); };
+    if (threads() == 1) {
+      plan_.in_postorder(part, shared);
+    } else {
+      run_tree(pool_, plan_.above(), part);
+      std::ranges::for_each(plan_.shared(), shared);
     }
     if (failed_ < tree_.size) {
       throw IndefiniteMatrix(tree_.size, tree_.permutation[at(failed_)]);
     }
+    return static_cast<double>(count_.most());
   }
 
  private:
   static std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
-  /// What one thread does: a whole subtree, or a single front above some.
-  struct Part {
-    int begin, root;
-    double work;
-    bool is_single;
-  };
+  int threads() const { return pool_ == nullptr ? 1 : pool_->threads(); }
 
   Front front(int s) const { return {tree_.columns(s), tree_.rows_below(s)}; }
+  /// Threads that share the front of s.
+  TaskPool* pool_for(int s) const { return front_work(tree_, s) >= kSharedFront ? pool_ : nullptr; }
 
-  double work(int s) const {
-    const double columns = tree_.columns(s);
-    const double rows = tree_.columns(s) + tree_.rows_below(s);
-    return columns * rows * rows;
+  void factorise_part(int k) {
+    const FrontPlan::Part& part = plan_.parts()[at(k)];
+    if (is_lost(part.begin)) return;
+    part.is_single ? factorise_single(part.root) : factorise_subtree(part.begin, part.root);
   }
 
-  /// Parts for single threads, and the supernodes above them, which all threads share.
-  void divide() {
-    std::vector<double> below(at(tree_.count));
-    std::vector<int> begin(at(tree_.count));
-    double total = 0.0;
-    for (int s = 0; s < tree_.count; ++s) begin[at(s)] = s;
-    for (int s = 0; s < tree_.count; ++s) {
-      below[at(s)] += work(s);
-      total += work(s);
-      const int p = tree_.parent[at(s)];
-      if (p < 0) continue;
-      below[at(p)] += below[at(s)];
-      begin[at(p)] = std::min(begin[at(p)], begin[at(s)]);
-    }
-    const int threads = pool_ == nullptr ? 1 : pool_->threads();
-    const double most = total / (kSubtreesPerThread * threads);
-    const double heaviest = std::min(kFewTiles, kLongest * total / threads);
-    std::vector<Part> singles;
-    std::vector<bool> is_shared(at(tree_.count));
-    for (int s = 0; s < tree_.count; ++s) {
-      const int p = tree_.parent[at(s)];
-      if (below[at(s)] <= most) {
-        if (p < 0 || below[at(p)] > most) parts_.push_back({begin[at(s)], s, below[at(s)], false});
-      } else if (is_shared[at(s)] || work(s) > heaviest) {
-        shared_.push_back(s);
-        if (p >= 0) is_shared[at(p)] = true;
-      } else {
-        singles.push_back({s, s, work(s), true});
-      }
-      if (below[at(s)] > most) top_children_[s];
-      if (p >= 0 && below[at(p)] > most) top_children_[p].push_back(s);
-    }
-    std::ranges::stable_sort(parts_, std::ranges::less{}, &Part::work);
-    parts_.insert(parts_.end(), singles.begin(), singles.end());
-    connect_parts();
-  }
-
-  /// Parts with higher numbers come first where they may: fronts above others, which free memory,
-  /// then heavy subtrees, so that light ones even out the work in the end.
-  void connect_parts() {
-    std::vector<int> part(at(tree_.count), -1);
-    for (std::size_t k = 0; k < parts_.size(); ++k) part[at(parts_[k].root)] = static_cast<int>(k);
-    for (const Part& p : parts_) {
-      const int parent = tree_.parent[at(p.root)];
-      above_.push_back(parent < 0 ? -1 : part[at(parent)]);
-    }
-  }
-
-  /// Numbers that the fronts of a subtree take at most at the same time.
-  std::ptrdiff_t room_needed(int begin, int root) const {
-    std::vector<std::ptrdiff_t> waiting;
-    std::ptrdiff_t used = 0, most = 0;
-    std::vector<int> children = count_children(begin, root);
-    for (int s = begin; s <= root; ++s) {
-      const Front f = front(s);
-      most = std::max(most, used + f.rest_size() + f.own_size());
-      for (int k = children[at(s - begin)]; k > 0; --k) {
-        used -= waiting.back();
-        waiting.pop_back();
-      }
-      waiting.push_back(f.rest_size());
-      used += f.rest_size();
-    }
-    return most;
-  }
-
-  std::vector<int> count_children(int begin, int root) const {
-    std::vector<int> children(at(root - begin + 1));
-    for (int s = begin; s < root; ++s) ++children[at(tree_.parent[at(s)] - begin)];
-    return children;
+  void share(int s) {
+    if (is_lost(s)) return;
+    rooms_.clear();
+    plan_.is_top(s) ? factorise_top(s) : factorise_shared(s);
   }
 
   /// The rests of fronts lie one after the other; a parent comes behind those of its children and
   /// then takes their place.
   void factorise_subtree(int begin, int root) {
-    StreamingMemory room = rooms_.take(at64(room_needed(begin, root)));
+    CountedMemory room = rooms_.take(subtree_room(tree_, begin, root));
     std::vector<int> local(at(tree_.size));
-    const std::vector<int> children = count_children(begin, root);
+    const std::vector<int> children = count_children(tree_, begin, root);
     std::vector<std::pair<int, double*>> waiting;
     double* free = room.data();
     for (int s = begin; s <= root; ++s) {
       Front f = front(s);
       f.begin(free + f.rest_size(), free, nullptr);
-      number_rows(s, local);
-      add_matrix(s, f, local);
+      entries_.add(s, f, local);
       double* to = free;
       const std::size_t first = waiting.size() - at(children[at(s - begin)]);
       for (std::size_t k = first; k < waiting.size(); ++k) {
@@ -181,60 +104,33 @@ class Multifrontal {
 
   void keep_rest(int s, const double* values) {
     const std::ptrdiff_t size = front(s).rest_size();
-    rest_[at(s)] = StreamingMemory(at64(size));
+    rest_[at(s)] = CountedMemory(size, count_);
     std::copy(values, values + size, rest_[at(s)].data());
   }
 
   void factorise_single(int s) {
-    if (is_lost(s)) return;
-    StreamingMemory own = rooms_.take(at64(front(s).own_size()));
+    CountedMemory own = rooms_.take(front(s).own_size());
     std::vector<int> local(at(tree_.size));
-    factorise_top(s, own.data(), local, nullptr);
+    factorise_alone(s, own.data(), local, nullptr);
     rooms_.give_back(std::move(own));
   }
 
-  /// @param own memory for the columns of s
-  void factorise_top(int s, double* own, std::vector<int>& local, TaskPool* pool) {
+  void factorise_shared(int s) {
+    CountedMemory own(front(s).own_size(), count_);
+    factorise_alone(s, own.data(), local_, pool_for(s));
+  }
+
+  /// A front that is in no whole subtree, but no top front. @param own memory for the columns of s
+  void factorise_alone(int s, double* own, std::vector<int>& local, TaskPool* pool) {
     Front f = front(s);
-    StreamingMemory rest(at64(f.rest_size()));
+    CountedMemory rest(f.rest_size(), count_);
     f.begin(own, rest.data(), pool);
-    number_rows(s, local);
-    add_matrix(s, f, local);
-    for (const int child : top_children_.at(s)) {
+    entries_.add(s, f, local);
+    for (const int child : plan_.waiting(s)) {
       add_rest(child, rest_[at(child)].data(), f, local, pool);
-      rest_[at(child)] = StreamingMemory();
+      rest_[at(child)] = CountedMemory();
     }
     if (eliminate(s, f, pool)) rest_[at(s)] = std::move(rest);
-  }
-
-  /// Whether a pivot in a column before s was not positive. Supernodes before such a column do not
-  /// depend on it.
-  bool is_lost(int s) {
-    const std::scoped_lock lock(failure_);
-    return tree_.first_column[at(s)] > failed_;
-  }
-
-  /// local[column of L] = row of the front of s.
-  void number_rows(int s, std::vector<int>& local) const {
-    int row = 0;
-    for (int c = tree_.first_column[at(s)]; c < tree_.first_column[at(s + 1)]; ++c) {
-      local[at(c)] = row++;
-    }
-    const int* rows = tree_.rows_of(s);
-    for (int k = 0; k < tree_.rows_below(s); ++k) local[at(rows[k])] = row++;
-  }
-
-  void add_matrix(int s, const Front& f, const std::vector<int>& local) const {
-    const int first = tree_.first_column[at(s)];
-    std::vector<MatrixSum::Entry> entries;
-    for (int j = 0; j < tree_.columns(s); ++j) {
-      double* to = f.column(j);
-      A_.read_column(tree_.permutation[at(first + j)], entries);
-      for (const auto& [of, value] : entries) {
-        const int row = place_[at(of)];
-        if (row >= first + j) to[local[at(row)]] += value;
-      }
-    }
   }
 
   void add_rest(int child, const double* rest, Front& f, const std::vector<int>& local,
@@ -245,47 +141,80 @@ class Multifrontal {
     f.add(rest, places, pool);
   }
 
-  /// @return false if a pivot is not positive; the first of all such columns is kept
-  bool eliminate(int s, Front& f, TaskPool* pool) {
-    const int failed = f.eliminate(pool);
-    if (failed >= 0) {
-      const std::scoped_lock lock(failure_);
-      failed_ = std::min(failed_, tree_.first_column[at(s)] + failed);
-      return false;
+  /// Some blocks at a time, which are handed over and freed before the next begin.
+  void factorise_top(int s) {
+    TaskPool* pool = pool_for(s);
+    Front& f = top_.front(s, pool);
+    for (const int child : plan_.waiting(s)) {
+      top_.add_rest(child, rest_[at(child)].data(), pool);
+      rest_[at(child)] = CountedMemory();
     }
-    static_assert(Trapezoid::kBlock % kPanelColumns == 0);
-    const int columns = tree_.columns(s);
-    run_tasks(pool, (columns + kPanelColumns - 1) / kPanelColumns, [&](int k) {
-      const int begin = k * kPanelColumns;
-      const int p = begin / Trapezoid::kBlock;
-      take_(s, begin, std::min(begin + kPanelColumns, columns),
-            f.own().column(f.own_values(), begin) + begin, f.own().stride(p));
-    });
+    for (int begin = 0, end = 0; begin < f.own().blocks(); begin = end) {
+      end = std::min(begin + TopFronts::kBlocks, f.own().blocks());
+      if (is_failed(s, f.eliminate_blocks(begin, end, pool))) return;
+      top_.subtract(s, begin, end, pool);
+      hand_over(s, f, begin, end, pool);
+      top_.free(s, begin, end);
+    }
+  }
+
+  /// @return false if a pivot is not positive
+  bool eliminate(int s, Front& f, TaskPool* pool) {
+    if (is_failed(s, f.eliminate(pool))) return false;
+    hand_over(s, f, 0, f.own().blocks(), pool);
     return true;
   }
 
-  static std::size_t at64(std::ptrdiff_t k) { return static_cast<std::size_t>(k); }
+  /// Whether a pivot in a column before s was not positive. Supernodes before such a column do not
+  /// depend on it.
+  bool is_lost(int s) {
+    const std::scoped_lock lock(failure_);
+    return tree_.first_column[at(s)] > failed_;
+  }
 
-  const MatrixSum& A_;
+  /// Keeps the first of all columns without a positive pivot. @param column of s, −1 if there is
+  /// none
+  bool is_failed(int s, int column) {
+    if (column < 0) return false;
+    const std::scoped_lock lock(failure_);
+    failed_ = std::min(failed_, tree_.first_column[at(s)] + column);
+    return true;
+  }
+
+  /// Of finished blocks.
+  void hand_over(int s, const Front& f, int first_block, int end_block, TaskPool* pool) {
+    static_assert(Trapezoid::kBlock % kPanelColumns == 0);
+    const int first = first_block * Trapezoid::kBlock;
+    const int past = std::min(end_block * Trapezoid::kBlock, tree_.columns(s));
+    const double rows = f.own().rows - 0.5 * (first + past);
+    count_.add(static_cast<std::ptrdiff_t>(sizeof(double) * rows * (past - first)));
+    run_tasks(pool, (past - first + kPanelColumns - 1) / kPanelColumns, [&](int k) {
+      const int begin = first + k * kPanelColumns;
+      const int p = begin / Trapezoid::kBlock;
+      take_(s, begin, std::min(begin + kPanelColumns, past),
+            f.own().column(f.own_values(), begin) + begin, f.own().stride(p));
+    });
+  }
+
   const SupernodeTree& tree_;
   const TakeColumns& take_;
   TaskPool* pool_;
-  std::vector<int> place_;  // column of L of each row of A
+  FrontEntries entries_;
+  FrontPlan plan_;
   std::mutex failure_;
   int failed_;  // first column of L without a positive pivot, their number if there is none
-  std::vector<Part> parts_;
-  std::vector<int> above_;                        // part above each, −1 if there is none
-  std::vector<int> shared_;                       // supernodes above all parts
-  std::map<int, std::vector<int>> top_children_;  // of supernodes that are in no whole subtree
+  MemoryCount count_;
   Rooms rooms_;
-  std::vector<StreamingMemory> rest_;  // of fronts whose parents are in no whole subtree
+  std::vector<CountedMemory> rest_;  // of fronts that are the roots of parts, or shared
+  std::vector<int> local_;           // for the fronts that threads share
+  TopFronts top_;
 };
 
 }  // namespace
 
-void factorise_fronts(const MatrixSum& A, const SupernodeTree& tree, const TakeColumns& take,
-                      TaskPool* pool) {
-  Multifrontal(A, tree, take, pool).run();
+double factorise_fronts(const MatrixSum& A, const SupernodeTree& tree, const TakeColumns& take,
+                        TaskPool* pool) {
+  return Multifrontal(A, tree, take, pool).run();
 }
 
 }  // namespace buckens::linalg

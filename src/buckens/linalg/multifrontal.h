@@ -21,12 +21,14 @@ using TakeColumns =
 ///
 /// Multifrontal (Duff and Reid 1983; Liu 1992): every supernode adds up what its children subtract
 /// from its rows, eliminates its columns by dense products (OpenBLAS) and leaves the rest to its
-/// parent. Threads take whole subtrees and single small fronts above them; all share the others,
-/// tile by tile. Sums and products are the same with any number of threads.
+/// parent. Large ones near the roots leave no rests (top_fronts.h). One thread goes through the
+/// tree in postorder. Several take whole subtrees and single small fronts above them; all share the
+/// others, tile by tile. Sums and products are the same with any number of threads.
 /// @param A its terms are formed; it is read column by column, and need not exist as a whole
+/// @return bytes that finished columns and fronts took at most at the same time
 /// @throws IndefiniteMatrix if A is not positive definite
 /// @throws std::bad_alloc
-void factorise_fronts(const MatrixSum& A, const SupernodeTree& tree, const TakeColumns& take,
-                      TaskPool* pool);
+double factorise_fronts(const MatrixSum& A, const SupernodeTree& tree, const TakeColumns& take,
+                        TaskPool* pool);
 
 }  // namespace buckens::linalg

@@ -8,7 +8,7 @@ namespace buckens::linalg {
 /// Memory of the Cholesky factor of a matrix, found from the pattern of its entries.
 struct PredictedFactor {
   double bytes = 0;  ///< of the factor
-  double peak = 0;   ///< with the fronts that are still needed while it is computed
+  double peak = 0;   ///< at most, with the fronts that one thread needs while it is computed
 };
 
 /// @param A symmetric, both triangles stored; the values are not read. Takes a tenth of the time

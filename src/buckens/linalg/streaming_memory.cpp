@@ -22,7 +22,7 @@ StreamingMemory::StreamingMemory(std::size_t count) : size_(count) {
   const std::size_t bytes = count * sizeof(double);
   const std::size_t unit = bytes >= kHugePage ? kHugePage : kLine;
   const std::size_t whole = (bytes + unit - 1) / unit * unit;
-  values_.reset(static_cast<double*>(std::aligned_alloc(unit, whole)));
+  values_ = {static_cast<double*>(std::aligned_alloc(unit, whole)), Free{count}};
   if (values_ == nullptr) throw std::bad_alloc();
 #if defined(MADV_HUGEPAGE)
   // Only a request: if not granted, it costs time only.
@@ -44,6 +44,9 @@ void give_up_pages(const double* begin, const double* end) {
 #endif
 }
 
-void StreamingMemory::Free::operator()(double* values) const { std::free(values); }
+void StreamingMemory::Free::operator()(double* values) const {
+  if (count * sizeof(double) >= kHugePage) give_up_pages(values, values + count);
+  std::free(values);
+}
 
 }  // namespace buckens::linalg

@@ -7,7 +7,8 @@
 namespace buckens::linalg {
 
 /// Doubles that are read in one long sweep: aligned to cache lines and, if there are many, on huge
-/// pages (where the system provides them), which avoids most TLB misses.
+/// pages (where the system provides them), which avoids most TLB misses. Many go back to the system
+/// when they are freed, rather than wait in the heap.
 class StreamingMemory {
  public:
   StreamingMemory() = default;
@@ -20,7 +21,10 @@ class StreamingMemory {
 
  private:
   struct Free {
+    Free() : count(0) {}
+    explicit Free(std::size_t all) : count(all) {}
     void operator()(double* values) const;
+    std::size_t count;
   };
   std::unique_ptr<double[], Free> values_;
   std::size_t size_ = 0;

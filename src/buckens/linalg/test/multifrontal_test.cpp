@@ -2,6 +2,7 @@
 // The factor against the matrix, with several threads against one.
 #include "buckens/linalg/multifrontal.h"
 
+#include <algorithm>
 #include <mutex>
 #include <vector>
 
@@ -11,8 +12,11 @@
 #include "buckens/base/task_pool.h"
 #include "buckens/linalg/factor_threads.h"
 #include "buckens/linalg/front.h"
+#include "buckens/linalg/front_plan.h"
+#include "buckens/linalg/predicted_factor.h"
 #include "buckens/linalg/sparse_cholesky.h"
 #include "buckens/linalg/test/definite_matrices.h"
+#include "buckens/linalg/top_fronts.h"
 
 namespace buckens::linalg {
 namespace {
@@ -41,6 +45,76 @@ Matrix factor_of(const SparseMatrix& A, const SupernodeTree& tree, TaskPool* poo
   return L;
 }
 
+/// L by supernodes: its columns one after the other, from the diagonal down.
+struct SparseL {
+  const SupernodeTree* tree;
+  std::vector<std::vector<double>> columns;  // per column of L
+  double most;                               // bytes of finished columns and fronts
+
+  Vector times(const Vector& x) const {
+    Vector y = Vector::Zero(tree->size);
+    visit([&](int row, int column, double value) { y[row] += value * x[column]; });
+    return y;
+  }
+  Vector transposed_times(const Vector& x) const {
+    Vector y = Vector::Zero(tree->size);
+    visit([&](int row, int column, double value) { y[column] += value * x[row]; });
+    return y;
+  }
+  double bytes() const {
+    double sum = 0;
+    for (const auto& column : columns) sum += sizeof(double) * static_cast<double>(column.size());
+    return sum;
+  }
+
+ private:
+  template <class F>
+  void visit(F&& f) const {
+    for (int s = 0; s < tree->count; ++s) {
+      const int first = tree->first_column[slot(s)];
+      for (int c = 0; c < tree->columns(s); ++c) {
+        const std::vector<double>& values = columns[slot(first + c)];
+        for (int i = c; i < tree->columns(s) + tree->rows_below(s); ++i) {
+          const int below = i - tree->columns(s);
+          f(below < 0 ? first + i : tree->rows_of(s)[below], first + c, values[slot(i - c)]);
+        }
+      }
+    }
+  }
+};
+
+SparseL sparse_factor_of(const SparseMatrix& A, const SupernodeTree& tree, TaskPool* pool) {
+  SparseL L{&tree, std::vector<std::vector<double>>(slot(tree.size)), 0.0};
+  L.most = factorise_fronts(
+      A, tree,
+      [&](int s, int begin, int end, const double* corner, std::ptrdiff_t stride) {
+        const int rows = tree.columns(s) + tree.rows_below(s);
+        for (int c = begin; c < end; ++c) {
+          const double* values = corner + (c - begin) * stride;
+          L.columns[slot(tree.first_column[slot(s)] + c)].assign(values + (c - begin),
+                                                                 values + (rows - begin));
+        }
+      },
+      pool);
+  return L;
+}
+
+/// Bytes of finished columns and fronts where every front leaves a rest, and takes those of its
+/// children.
+double bytes_with_rests(const SupernodeTree& tree) {
+  std::vector<double> waiting(slot(tree.count));
+  double used = 0, most = 0, finished = 0;
+  for (int s = 0; s < tree.count; ++s) {
+    const Front front(tree.columns(s), tree.rows_below(s));
+    const double rest = 8.0 * static_cast<double>(front.rest_size());
+    finished += 8.0 * tree.columns(s) * (tree.rows_below(s) + 0.5 * tree.columns(s));
+    most = std::max(most, finished + used + 8.0 * static_cast<double>(front.own_size()) + rest);
+    used += rest - waiting[slot(s)];
+    if (tree.parent[slot(s)] >= 0) waiting[slot(tree.parent[slot(s)])] += rest;
+  }
+  return most;
+}
+
 Matrix permuted(const SparseMatrix& A, const std::vector<int>& permutation) {
   const Matrix full(A);
   return full(permutation, permutation);
@@ -66,6 +140,88 @@ TEST(Multifrontal, DoesNotDependOnTheNumberOfThreads) {
     for (const int threads : {1, 2, 3, 8}) {
       TaskPool pool(threads);
       ASSERT_EQ(factor_of(A, tree, &pool), alone) << threads;
+    }
+  }
+}
+
+// Large enough for top fronts at three levels of the tree, of which some have several blocks, and
+// for sums from all levels.
+class LargeGrid : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    matrix_ = new SparseMatrix(matrices::grid(22, 0.1));
+    tree_ = new SupernodeTree(find_supernode_tree(*matrix_));
+  }
+  static void TearDownTestSuite() {
+    delete tree_;
+    delete matrix_;
+  }
+  static SparseMatrix* matrix_;
+  static SupernodeTree* tree_;
+};
+
+SparseMatrix* LargeGrid::matrix_ = nullptr;
+SupernodeTree* LargeGrid::tree_ = nullptr;
+
+TEST_F(LargeGrid, HasTopFrontsAtThreeLevels) {
+  const FrontPlan plan(*tree_, 1);
+  int levels = 0, blocks = 0;
+  for (int s = 0; s < tree_->count; ++s) {
+    if (!plan.is_top(s)) continue;
+    int level = 1;
+    for (int p = tree_->parent[slot(s)]; p >= 0; p = tree_->parent[slot(p)]) {
+      EXPECT_TRUE(plan.is_top(p));
+      ++level;
+    }
+    levels = std::max(levels, level);
+    blocks = std::max(blocks, Front(tree_->columns(s), 0).own().blocks());
+    for (const int child : plan.waiting(s)) EXPECT_FALSE(plan.is_top(child));
+    EXPECT_TRUE(FrontPlan(*tree_, 16).is_top(s));
+  }
+  EXPECT_GE(levels, 3);
+  EXPECT_GT(blocks, TopFronts::kBlocks);
+}
+
+TEST_F(LargeGrid, GivesTheSameFactorInLittleMemory) {
+  const SparseL alone = sparse_factor_of(*matrix_, *tree_, nullptr);
+  const Vector x = scattered_block(tree_->size, 1, 11).col(0);
+  Vector permuted_x(tree_->size), expected(tree_->size);
+  for (int k = 0; k < tree_->size; ++k) permuted_x[tree_->permutation[slot(k)]] = x[k];
+  const Vector Ax = *matrix_ * permuted_x;
+  for (int k = 0; k < tree_->size; ++k) expected[k] = Ax[tree_->permutation[slot(k)]];
+  const Vector product = alone.times(alone.transposed_times(x));
+  // Rounding of sums of at most some thousand products.
+  EXPECT_LE((product - expected).norm(), 1e-14 * expected.norm());
+
+  // The rests of the subtrees below top fronts, and a group of blocks.
+  EXPECT_LE(alone.most, 1.2 * alone.bytes());
+  EXPECT_LE(alone.most, predict_factor(*matrix_).peak);
+  EXPECT_GE(alone.most, 0.9 * predict_factor(*matrix_).peak);
+  EXPECT_GE(bytes_with_rests(*tree_) - alone.bytes(), 2.0 * (alone.most - alone.bytes()));
+  for (const int threads : {2, 3}) {
+    TaskPool pool(threads);
+    const SparseL L = sparse_factor_of(*matrix_, *tree_, &pool);
+    ASSERT_TRUE(L.columns == alone.columns) << threads;
+  }
+}
+
+TEST_F(LargeGrid, NamesTheFirstColumnThatFails) {
+  // Of the three last top fronts, in columns of their first, second and last blocks.
+  SparseMatrix A = *matrix_;
+  Eigen::Index first = -1;
+  for (const int behind : {1, 2, 3}) {
+    const int s = tree_->count - behind;
+    const int c = tree_->first_column[slot(s)] + tree_->columns(s) * behind / 4;
+    first = tree_->permutation[slot(c)];
+    A.coeffRef(first, first) = -1e3;
+    for (const int threads : {1, 2, 3}) {
+      TaskPool pool(threads);
+      try {
+        sparse_factor_of(A, *tree_, &pool);
+        FAIL();
+      } catch (const IndefiniteMatrix& error) {
+        EXPECT_EQ(error.column(), first) << behind << " " << threads;
+      }
     }
   }
 }

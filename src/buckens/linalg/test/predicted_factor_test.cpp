@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "buckens/linalg/multifrontal.h"
 #include "buckens/linalg/sparse_cholesky.h"
 #include "buckens/linalg/test/definite_matrices.h"
 
@@ -20,6 +21,17 @@ TEST(PredictedFactor, IsWhatTheFactorTakes) {
     EXPECT_GT(predicted.peak, predicted.bytes);
     EXPECT_LT(predicted.peak, 3.0 * predicted.bytes);
     EXPECT_LT(8.0 * factor.num_factor_entries(), most_factor_bytes(A.rows()));
+  }
+}
+
+TEST(PredictedFactor, IsWhatOneThreadTakesAtMost) {
+  for (const int nodes : {4, 9, 14}) {
+    const SparseMatrix A = matrices::grid(nodes, 0.1);
+    const double most = factorise_fronts(
+        A, find_supernode_tree(A), [](int, int, int, const double*, std::ptrdiff_t) {}, nullptr);
+    const double predicted = predict_factor(A).peak;  // rows rounded up to whole cache lines
+    EXPECT_GE(predicted, most) << nodes;
+    EXPECT_LE(predicted, 1.25 * most) << nodes;
   }
 }
 
