@@ -38,7 +38,7 @@ linalg::SymmetricMatrix damping_matrix(const fem::FeModel& fe) {
   if (fe.K_damping.nonZeros() > 0) sum.add(1.0, fe.K_damping);
   if (sum.size() == 0) return linalg::SparseMatrix(fe.M.rows(), fe.M.cols());
   if (sum.is_divided()) return sum.divided();
-  return sum.whole();
+  return linalg::SymmetricMatrix::in_blocks(sum.whole());
 }
 
 }  // namespace

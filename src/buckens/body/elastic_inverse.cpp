@@ -45,12 +45,12 @@ std::vector<int> isostatic_variables(const fem::FeModel& fe, const Sieve& sieve,
   return held;
 }
 
-/// K_g of a K that is whole.
-SparseMatrix grounded(const SparseMatrix& K, const std::vector<int>& held) {
+/// K_g of a K that is in this process.
+SparseMatrix grounded(const SymmetricMatrix& K, const std::vector<int>& held) {
   const auto is_held = [&held](Eigen::Index k) {
     return std::binary_search(held.begin(), held.end(), static_cast<int>(k));
   };
-  SparseMatrix out = K;
+  SparseMatrix out = K.copied();
   out.prune([&](Eigen::Index row, Eigen::Index column, double) {
     return row == column || (!is_held(row) && !is_held(column));
   });

@@ -49,7 +49,7 @@ FreeModes solve_fixed_dense(const FlexiblePart& part, const Matrix& columns, Eig
   // Few variables without mass: with a shift, the roles of M and K can be exchanged.
   const double shift = 1e-6 * highest_square(part.fe.M, part.fe.K);
   const Matrix M = Z.transpose() * (part.fe.M * Z);
-  const Matrix A = Z.transpose() * (part.fe.K.whole() * Z) + shift * M;
+  const Matrix A = Z.transpose() * (part.fe.K * Z) + shift * M;
   const std::optional<linalg::SymmetricEigen> eigen = linalg::generalised_eigen(M, A);
   if (!eigen) {
     throw NumericalError(

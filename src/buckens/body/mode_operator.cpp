@@ -124,7 +124,7 @@ ModeOperator augmented_operator(const SymmetricMatrix& K, const Sieve& sieve) {
   const Eigen::Index n = K.rows();
   const Matrix P = sieve.P();
   const double size = K.diagonal().cwiseAbs().maxCoeff() / P.cwiseAbs().maxCoeff();
-  const auto A = std::make_shared<SparseMatrix>(bordered(K, size * P));
+  const auto A = std::make_shared<SparseMatrix>(bordered(K.copied(), size * P));
   const auto factor = std::make_shared<linalg::SparseLu>(*A);
   if (factor->predicted_entries() > kMostEntries) {
     throw ModelError(
@@ -164,7 +164,7 @@ ModeOperator augmented_operator(const SymmetricMatrix& K, const Sieve& sieve) {
 namespace {
 
 ModeOperator full_penalty_operator(const SymmetricMatrix& K, const Matrix& P, double penalty) {
-  const auto A = std::make_shared<Matrix>(Matrix(K.whole()) + penalty * P * P.transpose());
+  const auto A = std::make_shared<Matrix>(Matrix(K.copied()) + penalty * P * P.transpose());
   const auto factor = std::make_shared<linalg::DenseCholesky>(*A);
   if (!factor->is_positive_definite()) {
     throw NumericalError("method penalty: K + c PPᵀ is not positive definite; check the mesh");

@@ -24,7 +24,7 @@ SparseMatrix diagonal(const Vector& entries) {
 }
 
 /// ZᵀAZ; what is diagonal but for rounding becomes diagonal.
-SparseMatrix projected(const SparseMatrix& A, const Matrix& Z) {
+SparseMatrix projected(const linalg::SymmetricMatrix& A, const Matrix& Z) {
   const Matrix full = Z.transpose() * (A * Z);
   const Vector size = full.diagonal().cwiseAbs().cwiseSqrt();
   std::vector<linalg::Triplet> entries;

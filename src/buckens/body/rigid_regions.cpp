@@ -16,7 +16,6 @@
 #include "buckens/fem/assembly/mesh_division.h"
 #include "buckens/fem/constraint/elimination.h"
 #include "buckens/fem/element/node_label.h"
-#include "buckens/linalg/node_matrix.h"
 #include "buckens/linalg/ranks.h"
 #include "buckens/linalg/shared_matrix.h"
 
@@ -93,14 +92,14 @@ class Condensation {
   /// TᵀAT.
   SparseMatrix condensed(const SparseMatrix& A) const { return fem::condensed(A, T_); }
   /// The same of a matrix of the mesh, which afterwards takes no more memory in this process:
-  /// entries of one by node do not stay, and one that is divided is not brought back.
+  /// entries of one by node or in blocks do not stay, and one that is divided is not brought back.
   linalg::SymmetricMatrix condensed(fem::MeshMatrix which, const linalg::SymmetricMatrix& A) const {
     if (A.is_divided() && linalg::is_shared_work(T_.cols())) {
       const fem::Following rows = T_;
       return fem::matrix_made_elsewhere(which, full_->blocks, {full_->nodes, full_->dofs}, order_,
                                         &rows);
     }
-    if (A.nodes() != nullptr) return condensed(linalg::of_variables(*A.nodes()));
+    if (A.nodes() != nullptr || A.blocks() != nullptr) return condensed(A.copied());
     return condensed(A.whole());
   }
   /// Component `axis` of the displacements of all nodes, a row each.

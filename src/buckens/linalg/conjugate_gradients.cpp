@@ -61,7 +61,9 @@ Vector conjugate_gradients(const SparseMatrix& A, const Vector& b) {
 }
 
 Vector conjugate_gradients(const SymmetricMatrix& A, const Vector& b) {
-  if (!A.is_divided() && A.nodes() == nullptr) return conjugate_gradients(A.whole(), b);
+  if (!A.is_divided() && A.nodes() == nullptr && A.blocks() == nullptr) {
+    return conjugate_gradients(A.whole(), b);
+  }
   return solve_by_products(A.diagonal(), b, [&A](const Vector& p, Vector& image) {
     multiply({{&A, &p, &image}});
   });

@@ -76,9 +76,7 @@ void IterativeSolver::keep(SparseMatrix& A, const Matrix& motions) {
 void IterativeSolver::share(const MatrixSum& A, const Matrix& motions) {
   A.require_finite();
   // The others wait for columns while the solver is made and cannot be asked for what they hold.
-  for (const MatrixSum::Term& term : A.terms()) {
-    if (term.nodes() == nullptr) term.whole();
-  }
+  A.form_terms();
   ColumnSource columns(A);
   BuckensGridMatrix matrix{};
   matrix.give = ColumnSource::give;

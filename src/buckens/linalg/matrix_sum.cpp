@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "buckens/linalg/divided_matrix.h"
 #include "buckens/linalg/finite_matrix.h"
+#include "buckens/linalg/node_blocks.h"
 
 namespace buckens::linalg {
 
@@ -51,7 +53,29 @@ SymmetricMatrix MatrixSum::divided() const {
   return SymmetricMatrix(std::make_shared<const DividedMatrix>(divide(), weights));
 }
 
+namespace {
+
+double inner_product_by_columns(const MatrixSum& A, const MatrixSum& B) {
+  double sum = 0;
+  std::vector<MatrixSum::Entry> of_A, of_B;
+  for (Index column = 0; column < A.size(); ++column) {
+    A.read_column(column, of_A);
+    if (&A != &B) B.read_column(column, of_B);
+    const std::vector<MatrixSum::Entry>& others = &A != &B ? of_B : of_A;
+    auto other = others.begin();
+    for (const MatrixSum::Entry& entry : of_A) {
+      while (other != others.end() && other->row < entry.row) ++other;
+      if (other == others.end()) break;
+      if (other->row == entry.row) sum += entry.value * other->value;
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
 double inner_product(const MatrixSum& A, const MatrixSum& B) {
+  if (!A.is_divided() || !B.is_divided()) return inner_product_by_columns(A, B);
   std::vector<const DividedMatrix*> terms = A.divide();
   std::vector<double> a, b(terms.size(), 0.0);
   for (const MatrixSum::Term& term : A.terms()) a.push_back(term.weight);
@@ -63,51 +87,83 @@ double inner_product(const MatrixSum& A, const MatrixSum& B) {
   return DividedMatrix::inner_product(terms, a, b);
 }
 
-/// Goes through a column of a term, of one that is given by node without forming it.
+/// Sums a column, from a row on, without forming what is by node or in blocks.
 class MatrixSum::ColumnEntries {
  public:
-  ColumnEntries(const Term& term, Index column) {
-    const SparseMatrix* nodes = term.nodes();
-    if (nodes != nullptr) {
-      stride_ = 3;
-      offset_ = column % 3;
+  /// @param sums are replaced
+  ColumnEntries(const MatrixSum& A, Index column, Index from, std::vector<Entry>& sums)
+      : column_(column), from_(from), sums_(sums) {
+    sums_.clear();
+    if (A.terms_.empty()) return;
+    // Most rows of other terms are among those of the largest.
+    const auto largest = std::max_element(
+        A.terms_.begin(), A.terms_.end(),
+        [this](const Term& a, const Term& b) { return rows_about(a) < rows_about(b); });
+    const bool is_first = largest == A.terms_.begin();
+    const double weight = largest->weight;
+    visit(*largest, [this, is_first, weight](Index row, double value) {
+      sums_.push_back({static_cast<int>(row), is_first ? 0.0 + weight * value : 0.0});
+    });
+    for (auto term = A.terms_.begin() + (is_first ? 1 : 0); term != A.terms_.end(); ++term) {
+      add(*term);
     }
-    at_ = SparseMatrix::InnerIterator(nodes != nullptr ? *nodes : term.whole(), column / stride_);
   }
-  explicit operator bool() const { return static_cast<bool>(at_); }
-  ColumnEntries& operator++() {
-    ++at_;
-    return *this;
-  }
-  Index row() const { return stride_ * at_.row() + offset_; }
-  double value() const { return at_.value(); }
 
  private:
-  SparseMatrix::InnerIterator at_;
-  Index stride_ = 1, offset_ = 0;
+  /// In the column; blocks have all that other terms have, in general.
+  Index rows_about(const Term& term) const {
+    if (term.blocks() != nullptr) return std::numeric_limits<Index>::max();
+    const SparseMatrix& A = term.nodes() != nullptr ? *term.nodes() : term.whole();
+    const int* begin = A.outerIndexPtr() + (term.nodes() != nullptr ? column_ / 3 : column_);
+    return begin[1] - begin[0];
+  }
+
+  template <class Visitor>
+  void visit(const Term& term, Visitor&& visitor) const {
+    if (term.blocks() != nullptr) {
+      for (NodeBlocks::Column it(*term.blocks(), column_, from_); it; ++it) {
+        visitor(it.row(), it.value());
+      }
+      return;
+    }
+    const bool is_by_node = term.nodes() != nullptr;
+    const Index stride = is_by_node ? 3 : 1, offset = is_by_node ? column_ % 3 : 0;
+    const SparseMatrix& A = is_by_node ? *term.nodes() : term.whole();
+    for (SparseMatrix::InnerIterator it(A, column_ / stride); it; ++it) {
+      const Index row = stride * it.row() + offset;
+      if (row >= from_) visitor(row, it.value());
+    }
+  }
+
+  void add(const Term& term) {
+    Entry* at = sums_.data();
+    const Entry* const end = at + sums_.size();
+    const double weight = term.weight;
+    std::vector<Entry> others;
+    visit(term, [&](Index row, double value) {
+      while (at != end && at->row < row) ++at;
+      if (at != end && at->row == row) {
+        at->value += weight * value;
+      } else {
+        others.push_back({static_cast<int>(row), 0.0 + weight * value});
+      }
+    });
+    if (others.empty()) return;
+    const auto known = static_cast<std::ptrdiff_t>(sums_.size());
+    sums_.insert(sums_.end(), others.begin(), others.end());
+    std::inplace_merge(sums_.begin(), sums_.begin() + known, sums_.end(),
+                       [](const Entry& a, const Entry& b) { return a.row < b.row; });
+  }
+
+  Index column_, from_;
+  std::vector<Entry>& sums_;
 };
 
 template <class Visitor>
 void MatrixSum::visit_column(Index column, Index from, Visitor&& visit) const {
-  std::vector<ColumnEntries> at;
-  at.reserve(terms_.size());
-  for (const Term& term : terms_) {
-    at.emplace_back(term, column);
-    while (at.back() && at.back().row() < from) ++at.back();
-  }
-  for (;;) {
-    constexpr Index kEnd = std::numeric_limits<Index>::max();
-    Index row = kEnd;
-    for (const auto& it : at) row = it ? std::min(row, it.row()) : row;
-    if (row == kEnd) return;
-    double value = 0;
-    for (std::size_t k = 0; k < at.size(); ++k) {
-      if (!at[k] || at[k].row() != row) continue;
-      value += terms_[k].weight * at[k].value();
-      ++at[k];
-    }
-    visit(row, value);
-  }
+  std::vector<Entry> sums;
+  const ColumnEntries read(*this, column, from, sums);
+  for (const Entry& entry : sums) visit(entry.row, entry.value);
 }
 
 SparseMatrix MatrixSum::columns(Index first, Index count, Triangles which) const {
@@ -117,14 +173,14 @@ SparseMatrix MatrixSum::columns(Index first, Index count, Triangles which) const
   starts[0] = 0;
   for (Index k = 0; k < count; ++k) {
     int entries = 0;
-    visit_column(first + k, first_row(first + k), [&entries](Index, double) { ++entries; });
+    visit_column(first + k, first_row(first + k), [&entries](int, double) { ++entries; });
     starts[k + 1] = starts[k] + entries;
   }
   out.resizeNonZeros(starts[count]);
   Index place = 0;
   for (Index k = 0; k < count; ++k) {
-    visit_column(first + k, first_row(first + k), [&](Index row, double value) {
-      out.innerIndexPtr()[place] = static_cast<int>(row);
+    visit_column(first + k, first_row(first + k), [&](int row, double value) {
+      out.innerIndexPtr()[place] = row;
       out.valuePtr()[place++] = value;
     });
   }
@@ -132,15 +188,12 @@ SparseMatrix MatrixSum::columns(Index first, Index count, Triangles which) const
 }
 
 void MatrixSum::read_column(Index column, std::vector<Entry>& entries) const {
-  entries.clear();
-  visit_column(column, 0, [&entries](Index row, double value) {
-    entries.push_back({static_cast<int>(row), value});
-  });
+  const ColumnEntries read(*this, column, 0, entries);
 }
 
 void MatrixSum::form_terms() const {
   for (const Term& term : terms_) {
-    if (term.nodes() == nullptr) (void)term.whole();
+    if (term.nodes() == nullptr && term.blocks() == nullptr) (void)term.whole();
   }
 }
 
@@ -158,6 +211,7 @@ void MatrixSum::require_finite() const {
     const bool was_asked = term.symmetric != nullptr && term.symmetric->is_divided();
     if (was_asked) continue;
     if (term.nodes() != nullptr && term.nodes()->coeffs().allFinite()) continue;
+    if (term.blocks() != nullptr && term.blocks()->is_finite()) continue;
     linalg::require_finite(term.whole());
   }
   // Sums of finite entries may not be. If one beside the diagonal is not, and none on it, A is not

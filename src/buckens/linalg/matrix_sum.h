@@ -35,7 +35,8 @@ class MatrixSum {
   /// The same entries of one column. Of several threads at once only if all terms are formed.
   /// @param entries are replaced
   void read_column(Eigen::Index column, std::vector<Entry>& entries) const;
-  /// Has all terms in this process, so that threads may read columns.
+  /// Has all terms in this process, so that threads may read columns. Those by node and in blocks
+  /// stay as they are.
   void form_terms() const;
   Vector diagonal() const;
   /// @throws NumericalError if an entry of a term is not finite, or one on the diagonal of the sum
@@ -49,6 +50,8 @@ class MatrixSum {
     const SparseMatrix& whole() const { return symmetric ? symmetric->whole() : *always_whole; }
     /// A of one that is A ⊗ 1, or null.
     const SparseMatrix* nodes() const { return symmetric ? symmetric->nodes() : nullptr; }
+    /// Null unless it is in blocks.
+    const NodeBlocks* blocks() const { return symmetric ? symmetric->blocks() : nullptr; }
     Eigen::Index entries() const {
       return symmetric ? symmetric->nonZeros() : always_whole->nonZeros();
     }
@@ -80,7 +83,8 @@ class MatrixSum {
   std::vector<Term> terms_;
 };
 
-/// The sum of the products of all entries of A and B, entry by entry. @pre is_divided() of both
+/// The sum of the products of all entries of A and B, entry by entry, by the processes that have
+/// both if is_divided() of both.
 double inner_product(const MatrixSum& A, const MatrixSum& B);
 
 }  // namespace buckens::linalg

@@ -8,6 +8,7 @@
 
 #include "buckens/linalg/column_content.h"
 #include "buckens/linalg/divided_matrix.h"
+#include "buckens/linalg/node_blocks.h"
 #include "buckens/linalg/node_matrix.h"
 #include "buckens/linalg/row_order.h"
 #include "buckens/linalg/same_bits.h"
@@ -27,6 +28,17 @@ std::array<std::uint64_t, 2> content_of(const SparseMatrix& A) {
   return sum;
 }
 
+Matrix weighted_product_of(double weight, const NodeBlocks& A, const Matrix& X) {
+  Matrix out = Matrix::Zero(X.rows(), X.cols());
+  for (Eigen::Index column = 0; column < A.size(); ++column) {
+    for (NodeBlocks::Column it(A, column); it; ++it) {
+      const double entry = weight * it.value();
+      for (Eigen::Index k = 0; k < X.cols(); ++k) out(it.row(), k) += entry * X(column, k);
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 SymmetricMatrix::SymmetricMatrix(std::shared_ptr<const DividedMatrix> rows)
@@ -39,12 +51,26 @@ SymmetricMatrix SymmetricMatrix::by_node(std::shared_ptr<const SparseMatrix> nod
   return out;
 }
 
+SymmetricMatrix SymmetricMatrix::in_blocks(SparseMatrix&& A) {
+  SymmetricMatrix out;
+  out.here_.swap(A);
+  out.here_.makeCompressed();
+  if (out.cols() < NodeBlocks::kFewestVariables) return out;
+  std::shared_ptr<const NodeBlocks> blocks = NodeBlocks::of(out.here_);
+  if (!blocks) return out;
+  out.drop();
+  out.blocks_ = std::move(blocks);
+  return out;
+}
+
 Eigen::Index SymmetricMatrix::nonZeros() const {
+  if (blocks_) return blocks_->nonZeros();
   if (nodes_) return 3 * nodes_->nonZeros();
   return divided_ ? divided_->entries() : here_.nonZeros();
 }
 
 Vector SymmetricMatrix::diagonal() const {
+  if (blocks_) return blocks_->diagonal();
   if (nodes_) return of_variables(nodes_->diagonal());
   return divided_ ? divided_->diagonal() : Vector(here_.diagonal());
 }
@@ -56,7 +82,9 @@ Vector SymmetricMatrix::near_diagonal(std::span<const int> lengths) const {
   for (Eigen::Index column = 0; column < here_.cols(); ++column) {
     for (int k = 0; k < lengths[static_cast<std::size_t>(column)]; ++k) {
       const Eigen::Index row = column + k;
-      if (!nodes_) {
+      if (blocks_) {
+        out[next++] = blocks_->coeff(row, column);
+      } else if (!nodes_) {
         out[next++] = here_.coeff(row, column);
       } else {
         out[next++] = k % 3 == 0 ? nodes_->coeff(row / 3, column / 3) : 0.0;
@@ -67,6 +95,7 @@ Vector SymmetricMatrix::near_diagonal(std::span<const int> lengths) const {
 }
 
 double SymmetricMatrix::norm() const {
+  if (blocks_) return blocks_->norm();
   if (nodes_) return std::sqrt(3.0) * nodes_->norm();
   return divided_ ? divided_->norm() : here_.norm();
 }
@@ -79,22 +108,31 @@ const SparseMatrix& SymmetricMatrix::whole() const {
     divided_.reset();
   }
   if (!is_formed()) {
-    SparseMatrix A = of_variables(*nodes_);
+    SparseMatrix A = copied();
     here_.swap(A);
   }
   return here_;
 }
 
+SparseMatrix SymmetricMatrix::copied() const {
+  if (is_divided() || is_formed()) return whole();
+  return blocks_ ? blocks_->whole() : of_variables(*nodes_);
+}
+
 bool SymmetricMatrix::operator==(const SymmetricMatrix& other) const {
   if (nodes_ && other.nodes_)
     return nodes_ == other.nodes_ || have_same_bits(*nodes_, *other.nodes_);
-  const bool are_whole = !divided_ && !other.divided_ && !nodes_ && !other.nodes_;
-  if (are_whole) return have_same_bits(here_, other.here_);
+  if (blocks_ && other.blocks_) return blocks_ == other.blocks_ || *blocks_ == *other.blocks_;
+  const auto is_whole = [](const SymmetricMatrix& A) {
+    return !A.divided_ && !A.nodes_ && !A.blocks_;
+  };
+  if (is_whole(*this) && is_whole(other)) return have_same_bits(here_, other.here_);
   if (rows() != other.rows() || nonZeros() != other.nonZeros()) return false;
   return (divided_ && divided_ == other.divided_) || content() == other.content();
 }
 
 std::array<std::uint64_t, 2> SymmetricMatrix::content() const {
+  if (blocks_) return blocks_->content();
   if (nodes_ && !is_formed()) return content_of(of_variables(*nodes_));
   return divided_ ? divided_->content() : content_of(here_);
 }
@@ -122,10 +160,13 @@ void SymmetricMatrix::drop() const {
   SparseMatrix nothing(here_.rows(), here_.cols());
   here_.swap(nothing);
   nodes_.reset();
+  blocks_.reset();
 }
 
 void SymmetricMatrix::add_product(const Vector& x, Vector& y) const {
-  if (divided_ || nodes_) {
+  if (blocks_) {
+    blocks_->add_product(x.data(), y.data());
+  } else if (divided_ || nodes_) {
     y += *this * x;
   } else {
     y.noalias() += here_ * x;
@@ -133,12 +174,14 @@ void SymmetricMatrix::add_product(const Vector& x, Vector& y) const {
 }
 
 void SymmetricMatrix::multiply(const double* x, double* y) const {
+  if (blocks_) return blocks_->multiply(x, y);
   if (nodes_) return multiply_by_node(*nodes_, x, y);
   const DividedMatrix::Product product{divided_.get(), x, y};
   DividedMatrix::multiply({&product, 1});
 }
 
 Matrix weighted_product(double weight, const SymmetricMatrix& A, const Matrix& X) {
+  if (A.blocks() != nullptr) return weighted_product_of(weight, *A.blocks(), X);
   if (A.is_divided() || A.nodes() != nullptr) return weight * Matrix(A * X);
   return weight * (A.whole() * X);
 }
@@ -149,6 +192,8 @@ void multiply(std::initializer_list<MatrixProduct> products) {
     product.y->resize(product.A->rows());
     if (product.A->is_divided()) {
       elsewhere.push_back({&product.A->divide(), product.x->data(), product.y->data()});
+    } else if (product.A->blocks() != nullptr) {
+      product.A->blocks()->multiply(product.x->data(), product.y->data());
     } else if (product.A->nodes() != nullptr) {
       multiply_by_node(*product.A->nodes(), product.x->data(), product.y->data());
     } else {

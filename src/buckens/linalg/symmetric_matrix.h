@@ -14,6 +14,7 @@
 namespace buckens::linalg {
 
 class DividedMatrix;
+class NodeBlocks;
 
 /// A sparse symmetric matrix, both triangles stored, such as M, K and C of a body.
 ///
@@ -22,8 +23,10 @@ class DividedMatrix;
 /// numbers are and not what they are, so it is possible with constant objects, too. Products then
 /// go over those processes; whole() brings it back.
 ///
-/// Mass matrices of solids act alike on the three variables of each node and store one number for
-/// the three (by_node()). Others are whole in a process by itself, and products are those of Eigen.
+/// In a process by itself, mass matrices of solids act alike on the three variables of each node
+/// and store one number for the three (by_node()). Their stiffness stores each block of two nodes
+/// once (in_blocks()). Others are whole. Products have the bits of Eigen's, except for those by
+/// node.
 class SymmetricMatrix {
  public:
   SymmetricMatrix() = default;
@@ -36,6 +39,9 @@ class SymmetricMatrix {
   /// A ⊗ 1: node j has the variables 3j, 3j + 1 and 3j + 2. Reads `nodes`, as others may.
   /// @param nodes A, compressed, with entries
   static SymmetricMatrix by_node(std::shared_ptr<const SparseMatrix> nodes);
+  /// In blocks of nodes where that is possible and takes less memory (NodeBlocks::of()), from a
+  /// size on at which memory matters; else whole. Empties A.
+  static SymmetricMatrix in_blocks(SparseMatrix&& A);
   SymmetricMatrix(const SymmetricMatrix&) = default;
   SymmetricMatrix& operator=(const SymmetricMatrix&) = default;
   // Eigen's own moves copy.
@@ -43,6 +49,7 @@ class SymmetricMatrix {
   SymmetricMatrix& operator=(SymmetricMatrix&& from) noexcept {
     here_.swap(from.here_);
     nodes_.swap(from.nodes_);
+    blocks_.swap(from.blocks_);
     divided_.swap(from.divided_);
     order_.swap(from.order_);
     return *this;
@@ -62,18 +69,24 @@ class SymmetricMatrix {
   /// In this process, from now on. The reference ends with the next divide(). Not from several
   /// threads at once, unless is_formed().
   const SparseMatrix& whole() const;
+  /// The same entries for those who need them once: nothing stays that was not formed before.
+  SparseMatrix copied() const;
   /// A of A ⊗ 1, or null: products need nothing else, and entries follow from it.
   const SparseMatrix* nodes() const { return nodes_.get(); }
+  /// Null unless it is in blocks: products and columns need nothing else.
+  const NodeBlocks* blocks() const { return blocks_.get(); }
   /// Whether the entries themselves are in this process.
-  bool is_formed() const { return !is_divided() && (nodes_ == nullptr || here_.nonZeros() > 0); }
+  bool is_formed() const {
+    return !is_divided() && ((nodes_ == nullptr && blocks_ == nullptr) || here_.nonZeros() > 0);
+  }
   // NOLINTNEXTLINE(google-explicit-constructor)
   operator const SparseMatrix&() const { return whole(); }
 
-  /// A X, column by column where A is divided or given by node.
+  /// A X, column by column where A is not whole.
   template <class Derived>
   auto operator*(const Eigen::MatrixBase<Derived>& X) const {
     Eigen::Matrix<double, Eigen::Dynamic, Derived::ColsAtCompileTime> out(rows(), X.cols());
-    if (is_divided() || nodes_ != nullptr) {
+    if (is_divided() || nodes_ != nullptr || blocks_ != nullptr) {
       const Eigen::Matrix<double, Eigen::Dynamic, Derived::ColsAtCompileTime> columns = X;
       for (Eigen::Index k = 0; k < out.cols(); ++k) {
         multiply(columns.data() + k * columns.rows(), out.data() + k * out.rows());
@@ -92,8 +105,8 @@ class SymmetricMatrix {
   /// Hash of pattern and values.
   std::array<std::uint64_t, 2> content() const;
 
-  /// Gives the rows to the other processes, unless they have them; a matrix by node is one like
-  /// others from then on. @pre Ranks::count() > 1
+  /// Gives the rows to the other processes, unless they have them; a matrix by node or in blocks
+  /// is one like others from then on. @pre Ranks::count() > 1
   /// @throws NumericalError if memory is too small
   const DividedMatrix& divide() const { return divide(row_order()); }
   /// In a given order of rows, which all terms of a sum have in common.
@@ -108,14 +121,15 @@ class SymmetricMatrix {
   void multiply(const double* x, double* y) const;
   void drop() const;
 
-  mutable SparseMatrix here_;  // without entries where it is divided, or given by node and not used
-  mutable std::shared_ptr<const SparseMatrix> nodes_;  // of one that is not divided, or null
+  mutable SparseMatrix here_;  // without entries unless is_formed()
+  // Of one that is not divided, or null.
+  mutable std::shared_ptr<const SparseMatrix> nodes_;
+  mutable std::shared_ptr<const NodeBlocks> blocks_;
   mutable std::shared_ptr<const DividedMatrix> divided_;
   mutable SharedRowOrder order_;  // of one that was divided
 };
 
-/// w A X. In a process by itself it has the bits of Eigen's `w * (A * X)`, which are those of (w A)
-/// X.
+/// w A X. Where A is whole it has the bits of Eigen's `w * (A * X)`, which are those of (w A) X.
 Matrix weighted_product(double weight, const SymmetricMatrix& A, const Matrix& X);
 
 /// y = A x, of vectors of its length.

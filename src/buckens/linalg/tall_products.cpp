@@ -8,6 +8,7 @@
 #include <cblas.h>
 
 #include "buckens/linalg/divided_matrix.h"
+#include "buckens/linalg/node_blocks.h"
 #include "buckens/linalg/node_matrix.h"
 #include "buckens/linalg/row_parts.h"
 #include "buckens/linalg/single_thread.h"
@@ -93,10 +94,10 @@ Matrix divided_product(const SymmetricMatrix& A, const Eigen::Ref<const Matrix>&
   return out;
 }
 
-}  // namespace
-
-Matrix symmetric_product(const SparseMatrix& A, const Eigen::Ref<const Matrix>& X, TaskPool* pool) {
-  const Eigen::Index n = A.rows();
+/// @tparam Column goes through the entries of a column, rows ascending
+template <class Column, class Symmetric>
+Matrix product_by_columns(const Symmetric& A, const Eigen::Ref<const Matrix>& X, TaskPool* pool) {
+  const Eigen::Index n = X.rows();
   Matrix out(n, X.cols());
   const RowParts parts(n);
   // Columns side by side, so that an entry meets all of them in one place.
@@ -114,7 +115,7 @@ Matrix symmetric_product(const SparseMatrix& A, const Eigen::Ref<const Matrix>& 
     run_tasks(pool, parts.count(), [&](int part) {
       for (Eigen::Index j = parts.begin(part); j < parts.end(part); ++j) {
         double sum[kColumnsAtOnce] = {};
-        for (SparseMatrix::InnerIterator it(A, j); it; ++it) {
+        for (Column it(A, j); it; ++it) {
           const double* x = beside.data() + static_cast<std::ptrdiff_t>(kColumnsAtOnce) * it.row();
           for (int c = 0; c < kColumnsAtOnce; ++c) sum[c] += it.value() * x[c];
         }
@@ -125,9 +126,16 @@ Matrix symmetric_product(const SparseMatrix& A, const Eigen::Ref<const Matrix>& 
   return out;
 }
 
+}  // namespace
+
+Matrix symmetric_product(const SparseMatrix& A, const Eigen::Ref<const Matrix>& X, TaskPool* pool) {
+  return product_by_columns<SparseMatrix::InnerIterator>(A, X, pool);
+}
+
 Matrix symmetric_product(const SymmetricMatrix& A, const Eigen::Ref<const Matrix>& X,
                          TaskPool* pool) {
   if (A.is_divided()) return divided_product(A, X);
+  if (A.blocks() != nullptr) return product_by_columns<NodeBlocks::Column>(*A.blocks(), X, pool);
   if (A.nodes() == nullptr) return symmetric_product(A.whole(), X, pool);
   Matrix out(X.rows(), X.cols());
   const NodeMatrix nodes = node_matrix(*A.nodes());

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "buckens/body/mesh_solver.h"
+#include "buckens/linalg/node_blocks.h"
 #include "buckens/linalg/same_bits.h"
 
 namespace buckens::stepping {
@@ -116,6 +117,7 @@ void BodyStepOperator::divide(linalg::SharedStore* known) {
 
 void BodyStepOperator::find_nodal(const FactorSource& source) {
   static_assert(kSmall < body::NodalMotion::kFewestVariables);
+  static_assert(kSmall < linalg::NodeBlocks::kFewestVariables, "M and C are formed");
   nodal_ = part_->nodal_motion;
   if (!nodal_) return;
   if (source.twin != nullptr && source.twin->nodal_ && *source.twin->nodal_ == *nodal_) {

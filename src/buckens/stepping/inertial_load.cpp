@@ -8,7 +8,6 @@
 
 namespace buckens::stepping {
 
-using linalg::SparseMatrix;
 using linalg::Vector;
 
 namespace {
@@ -26,8 +25,10 @@ bool acts_by_node(const body::FlexiblePart& part, const body::NodalInertia& noda
   return (y - expected).norm() <= kProportional * expected.norm();
 }
 
-/// The same as of whole matrices, entry by entry where they are.
-std::optional<double> divided_stiffness_damping(const body::FlexiblePart& part) {
+}  // namespace
+
+std::optional<double> stiffness_damping(const body::FlexiblePart& part) {
+  if (!part.is_damped()) return std::nullopt;
   linalg::MatrixSum stiffness;
   stiffness.add(1.0, part.fe.K);
   const double size = linalg::inner_product(stiffness, stiffness);
@@ -40,35 +41,13 @@ std::optional<double> divided_stiffness_damping(const body::FlexiblePart& part) 
     return sum;
   };
   double beta = 0;
-  for (int pass = 0; pass < 2; ++pass) {
+  for (int pass = 0; pass < 2; ++pass) {  // the second takes the rounding of a long sum out
     beta += linalg::inner_product(rest(beta), stiffness) / size;
   }
-  const double left = linalg::inner_product(rest(beta), rest(beta));
-  if (std::sqrt(left) > kProportional * part.C.norm()) return std::nullopt;
-  return beta;
-}
-
-}  // namespace
-
-std::optional<double> stiffness_damping(const body::FlexiblePart& part) {
-  if (!part.is_damped()) return std::nullopt;
-  if (part.C.is_divided() && part.fe.M.is_divided() && part.fe.K.is_divided()) {
-    return divided_stiffness_damping(part);
+  const linalg::MatrixSum left = rest(beta);
+  if (std::sqrt(linalg::inner_product(left, left)) > kProportional * part.C.norm()) {
+    return std::nullopt;
   }
-  const SparseMatrix& K = part.fe.K;
-  linalg::MatrixSum difference;
-  difference.add(1.0, part.C);
-  difference.add(-part.fe.mass_damping, part.fe.M);
-  const SparseMatrix elastic = difference.whole();
-  const double size = K.squaredNorm();
-  if (!(size > 0.0)) return std::nullopt;
-  double beta = 0;
-  SparseMatrix rest = elastic;
-  for (int pass = 0; pass < 2; ++pass) {  // the second takes the rounding of a long sum out
-    beta += rest.cwiseProduct(K).sum() / size;
-    rest = elastic - beta * K;
-  }
-  if (rest.norm() > kProportional * part.C.whole().norm()) return std::nullopt;
   return beta;
 }
 

@@ -17,16 +17,10 @@ namespace buckens::sweep {
 
 namespace {
 
-void add_matrix(linalg::ContentHash& hash, const linalg::SparseMatrix& A) {
+void add_matrix(linalg::ContentHash& hash, const linalg::SymmetricMatrix& A) {
   hash.add(static_cast<std::uint64_t>(A.rows()));
   hash.add(static_cast<std::uint64_t>(A.nonZeros()));
-  for (Eigen::Index j = 0; j < A.outerSize(); ++j) {
-    for (linalg::SparseMatrix::InnerIterator entry(A, j); entry; ++entry) {
-      const double value = entry.value();
-      hash.add(static_cast<std::uint64_t>(entry.row()));
-      hash.add(&value, sizeof value);
-    }
-  }
+  for (const std::uint64_t number : A.content()) hash.add(number);
 }
 
 void add_number(linalg::ContentHash& hash, double value) { hash.add(&value, sizeof value); }

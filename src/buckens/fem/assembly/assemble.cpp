@@ -251,8 +251,8 @@ FeModel assemble(const Structure& structure, std::optional<spatial::Plane> plana
   }
   fe.M = mass_matrix(fe.shape, flywheel, fe.dofs.num_dofs);
   StiffnessMatrices stiffness = assemble_stiffness(fe.blocks, mesh);
-  fe.K = std::move(stiffness.K);
-  fe.K_damping = std::move(stiffness.K_damping);
+  fe.K = linalg::SymmetricMatrix::in_blocks(std::move(stiffness.K));
+  fe.K_damping = linalg::SymmetricMatrix::in_blocks(std::move(stiffness.K_damping));
   return fe;
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "buckens/linalg/matrix_sum.h"
+
 namespace buckens::fem {
 
 namespace {
@@ -19,12 +21,15 @@ std::vector<std::vector<int>> neighbours(const FeModel& fe) {
     }
   }
   std::vector<std::vector<int>> out(fe.nodes.size());
-  const linalg::SparseMatrix& K = fe.K;
-  for (int column = 0; column < K.outerSize(); ++column) {
+  linalg::MatrixSum K;
+  K.add(1.0, fe.K);
+  std::vector<linalg::MatrixSum::Entry> entries;
+  for (int column = 0; column < fe.dofs.num_dofs; ++column) {
     const int own = node_of[static_cast<std::size_t>(column)];
-    for (linalg::SparseMatrix::InnerIterator it(K, column); it; ++it) {
-      const int other = node_of[static_cast<std::size_t>(it.row())];
-      if (other != own && it.value() != 0.0) out[static_cast<std::size_t>(own)].push_back(other);
+    K.read_column(column, entries);
+    for (const auto& [row, value] : entries) {
+      const int other = node_of[static_cast<std::size_t>(row)];
+      if (other != own && value != 0.0) out[static_cast<std::size_t>(own)].push_back(other);
     }
   }
   for (auto& list : out) {

@@ -199,7 +199,7 @@ void hold(const Model& model, const PlacedRows& rows, std::size_t b, body::Body&
         "(`kind: rigid`), one frequency (`at: [f]`), or `of: free`",
         body.name, columns, part.num_dofs()));
   }
-  part.C = SparseMatrix(part.C.whole() + part.fe.mass_damping * held_share(B, part.sieve));
+  part.C = SparseMatrix(part.C.copied() + part.fe.mass_damping * held_share(B, part.sieve));
 }
 
 }  // namespace
