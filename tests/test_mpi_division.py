@@ -21,7 +21,7 @@ bodies:
     mesh: {file: bar.msh, material: {E: 210 GPa, nu: 0.3, rho: 7850 kg/m^3, damping: {mass: 3, stiffness: 1e-6}}}
     interfaces:
       bearing: {plane: {point: [0, 0, 0], normal: [1, 0, 0]}, kind: KIND}
-      tip: {plane: {point: [0.3, 0, 0], normal: [1, 0, 0]}}
+      tip: {plane: {point: [0.16, 0, 0], normal: [1, 0, 0]}}
 joints: {hinge: {revolute: {between: [ground, bar/bearing], axis: [0, 1, 0]}}}
 simulation: {duration: 2 ms, step: 0.1 ms}
 output: {every: 0.5 ms, sensors: {tip: {position: bar/tip}, force: {joint-force: hinge}}}
