@@ -149,8 +149,9 @@ class Multifrontal {
       top_.add_rest(child, rest_[at(child)].data(), pool);
       rest_[at(child)] = CountedMemory();
     }
-    for (int begin = 0, end = 0; begin < f.own().blocks(); begin = end) {
-      end = std::min(begin + TopFronts::kBlocks, f.own().blocks());
+    const int blocks = f.own().blocks();  // the front is gone with the last of them
+    for (int begin = 0, end = 0; begin < blocks; begin = end) {
+      end = std::min(begin + TopFronts::kBlocks, blocks);
       if (is_failed(s, f.eliminate_blocks(begin, end, pool))) return;
       top_.subtract(s, begin, end, pool);
       hand_over(s, f, begin, end, pool);
