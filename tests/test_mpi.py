@@ -388,11 +388,35 @@ def test_an_error_is_told_once(mpirun):
 
 
 @several
-@pytest.mark.parametrize("given", ["many", "0", "2.5", "99999999999"])
+@pytest.mark.parametrize("given", ["many", "63", "2.5", "99999999999"])
 def test_from_how_many_variables_on_bodies_are_shared_is_a_number(mpirun, given):
     result = must(mpirun(2, "run", BLOCKS, environment={"BUCKENS_MPI_VARIABLES": given}, timeout=60), 2)
     told = [line for line in result.stderr.splitlines() if line.startswith("buckens: error")]
     assert len(told) == 1 and f"BUCKENS_MPI_VARIABLES is \"{given}\"" in told[0] and "20000" in told[0], result.stderr
+
+
+@several
+def test_bodies_as_small_as_that_are_shared(buckens, mpirun, tmp_path):
+    """A beam of 66 variables, beside one of 60 that is not shared."""
+    beam = "{{from: [{0}, 0, 0], to: [{0}, 1, 0], elements: {1}, section: round, material: steel}}"
+    (tmp_path / "beams.yaml").write_text(f"""\
+buckens: 1
+gravity: [0, 0, -9.81]
+materials: {{steel: {{E: 210 GPa, nu: 0.3, rho: 7850, damping: {{stiffness: 1e-5}}}}}}
+sections: {{round: {{circle: {{diameter: 20 mm}}}}}}
+bodies: {{large: {{beam: {beam.format(0, 10)}}}, small: {{beam: {beam.format(1, 9)}}}}}
+joints:
+  first: {{spherical: {{between: [ground, large/start]}}}}
+  second: {{spherical: {{between: [ground, small/start]}}}}
+simulation: {{duration: 20 ms, step: 0.5 ms}}
+output: {{every: 1 ms, sensors: {{tip: {{position: large/end}}, far: {{position: small/end}}, force: {{joint-force: first}}}}}}
+""")
+    buckens("run", "beams.yaml", "-o", "one").must(0)
+    must(mpirun(2, "run", "beams.yaml", "-o", "two", environment={"BUCKENS_MPI_VARIABLES": "64"}))
+    summary = json.loads((tmp_path / "two" / "summary.json").read_text())
+    assert [body["dof"] for body in summary["bodies"].values()] == [66, 60]
+    assert summary["measures"]["messages_per_step"] > 0
+    assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < 1e-9
 
 
 @several

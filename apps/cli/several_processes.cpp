@@ -65,19 +65,21 @@ bool read_shared_size() {
   const std::string_view given = text;
   int variables = 0;
   const auto [end, failed] = std::from_chars(given.data(), given.data() + given.size(), variables);
-  if (failed != std::errc() || end != given.data() + given.size() || variables < 1) return false;
+  const bool is_number = failed == std::errc() && end == given.data() + given.size();
+  if (!is_number || variables < linalg::kFewestShared) return false;
   linalg::share_from(variables);
   return true;
 }
 
 int refuse_shared_size(int argc, const char* const* argv, const linalg::StartedProcesses& started) {
   if (started.rank > 0) return static_cast<int>(ExitCode::input);
-  return report(argc, argv, ExitCode::input, "input",
-                fmt::format("the environment variable {} is \"{}\", but should be the number of "
-                            "variables from which on processes share a body, 1 to {}; unset it for "
-                            "{}",
-                            kVariablesName, std::getenv(kVariablesName),
-                            std::numeric_limits<int>::max(), linalg::kWorthSharing));
+  return report(
+      argc, argv, ExitCode::input, "input",
+      fmt::format("the environment variable {} is \"{}\", but should be the number of "
+                  "variables from which on processes share a body, {} to {}; unset it for "
+                  "{}",
+                  kVariablesName, std::getenv(kVariablesName), linalg::kFewestShared,
+                  std::numeric_limits<int>::max(), linalg::kWorthSharing));
 }
 
 /// Time for the processes to find each other. MPI itself waits for ever if one of them never joins.

@@ -21,6 +21,7 @@
 #include "buckens/linalg/divided_vectors.h"
 #include "buckens/linalg/factor_work.h"
 #include "buckens/linalg/grid_library.h"
+#include "buckens/linalg/nodal_vector.h"
 #include "buckens/linalg/row_order.h"
 #include "buckens/linalg/row_service.h"
 #include "buckens/linalg/shared_modes.h"
@@ -30,6 +31,8 @@
 namespace buckens::linalg {
 
 namespace {
+
+static_assert(kFewestShared >= NodalVector::kShared);
 
 int count_of_ranks = 1;
 Eigen::Index worth_sharing = kWorthSharing;

@@ -68,8 +68,11 @@ constexpr Eigen::Index kWorthSharing = 20000;
 /// Whether several processes share the work with so many variables.
 bool is_shared_work(Eigen::Index variables);
 
-/// From how many variables on they do, instead of kWorthSharing. @pre there is no body yet
+/// From how many variables on they do, instead of kWorthSharing. @pre there is no body yet, and
+/// these are at least kFewestShared
 void share_from(Eigen::Index variables);
+/// Shorter vectors are copied instead of shared (NodalVector), so other processes cannot have them.
+constexpr Eigen::Index kFewestShared = 64;
 
 /// What makes the factors of bodies unless they iterate: SparseCholesky in this process, or, where
 /// several share the work and A is large, MUMPS, with the factor distributed over all. No process
