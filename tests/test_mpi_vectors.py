@@ -10,11 +10,16 @@ from mpi_runs import expect_same_energies, expect_same_stresses, mpirun, must, s
 from test_solver import largest_difference, sensors
 
 
+DAMPED = "materials.steel.damping={mass: 20, stiffness: 0.01 ms}"
+
+
 @several
-def test_a_blow_to_a_body_whose_vectors_others_have(buckens, mpirun, tmp_path):
+@pytest.mark.parametrize("change", [(), (DAMPED,)], ids=["undamped", "damped"])
+def test_a_blow_to_a_body_whose_vectors_others_have(buckens, mpirun, tmp_path, change):
+    """Vectors come to the first process where blows change rates, and what dampers take is known on both sides of that."""
     (tmp_path / "blow.yaml").write_text(BLOW)
-    buckens("run", "blow.yaml", "-o", "one").must(0)
-    must(mpirun(3, "run", "blow.yaml", "-o", "several"))
+    buckens("run", "blow.yaml", "-o", "one", *sets(*change)).must(0)
+    must(mpirun(3, "run", "blow.yaml", "-o", "several", *sets(*change)))
     one = sensors(tmp_path / "one")
     assert abs(one["lost"][-1]) > 1e-3 and one["speed.x"][-1] > -0.9, "it was struck"
     assert largest_difference(sensors(tmp_path / "several"), one) < 1e-9
@@ -89,9 +94,6 @@ def test_vectors_of_shells_stay_with_the_other_processes(mpirun, tmp_path):
     # Two records with stresses of two layers of each shell, and two vectors at first.
     per_solve = bytes_per_solve(tmp_path / "out", 2 * (8 * dof + 12 * SHELL_SIDE**2) + 2 * dof)
     assert 2 * 8 * 0.25 * dof < per_solve < 2 * 8 * 0.75 * dof
-
-
-DAMPED = "materials.steel.damping={mass: 20, stiffness: 0.01 ms}"
 
 
 @several

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The work of dampers where other processes have the rows of a body's vectors.
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,20 @@ DividedVector mass_times(RowProgram& program, const body::FlexiblePart& part,
                          const DividedVector& x) {
   return part.nodal_motion != nullptr ? program.multiply_mass(x)
                                       : program.multiply(part.fe.M.divide(), x);
+}
+
+/// ḋᵀM ḋ, if there is mass damping.
+std::optional<RowProgram::Sums> inner_product_by_mass(RowProgram& program,
+                                                      const body::FlexiblePart& part,
+                                                      const DividedVector& rate) {
+  if (part.fe.mass_damping == 0.0) return std::nullopt;
+  return program.inner_product(rate, mass_times(program, part, rate));
+}
+
+/// α ḋᵀM ḋ [W]
+double power_by_mass(const RowProgram& program, const body::FlexiblePart& part,
+                     const std::optional<RowProgram::Sums>& of_rates) {
+  return of_rates ? part.fe.mass_damping * program.sum(*of_rates)[0] : 0.0;
 }
 
 }  // namespace
@@ -60,9 +75,9 @@ void DampingWork::begin_there(const model::BodyState& s,
   const DividedVector d = s.d.divided(of), rate = s.d_dot.divided(of);
   RowProgram program(*of);
   const DividedVector elastic = program.multiply(part.fe.K.divide(), d);
-  const auto product = program.inner_product(rate, mass_times(program, part, rate));
+  const auto of_rates = inner_product_by_mass(program, part, rate);
   program.run();
-  power_ = part.fe.mass_damping * program.sum(product)[0];
+  power_ = power_by_mass(program, part, of_rates);
   d_ = s.d;
   elastic_ = linalg::NodalVector(of, elastic);
   last_step_ = 0.0;
@@ -87,7 +102,6 @@ double DampingWork::work_there(const model::State& state, const dynamics::Forces
                                const std::shared_ptr<linalg::DividedVectors>& of) {
   const body::FlexiblePart& part = *body_->flexible;
   const model::BodyState& s = state.bodies[index_];
-  const Columns& loads = columns(of);
   const DividedVector d = s.d.divided(of), rate = s.d_dot.divided(of);
   const DividedVector d_before = d_.divided(of), elastic_before = elastic_.divided(of);
   RowProgram program(*of);
@@ -96,18 +110,14 @@ double DampingWork::work_there(const model::State& state, const dynamics::Forces
     elastic = program.multiply(part.fe.K.divide(), d);
     ++products_;
   } else {
-    elastic = elastic_load_there(state, forces, h, loads, program);
+    elastic = elastic_load_there(state, forces, h, columns(of), program);
   }
   const DividedVector motion = program.combine(WeightedVectors{{1.0, &d}, {-1.0, &d_before}});
   const auto after = program.inner_product(motion, elastic);
   const auto before = program.inner_product(motion, elastic_before);
-  RowProgram::Sums of_rates;
-  if (part.fe.mass_damping != 0.0) {
-    of_rates = program.inner_product(rate, mass_times(program, part, rate));
-  }
+  const auto of_rates = inner_product_by_mass(program, part, rate);
   program.run();
-  double power = 0;
-  if (part.fe.mass_damping != 0.0) power = part.fe.mass_damping * program.sum(of_rates)[0];
+  const double power = power_by_mass(program, part, of_rates);
   const double stiffness = beta_ / h * (program.sum(after)[0] - program.sum(before)[0]);
   const double work = 0.5 * h * (power_ + power) + stiffness;
   d_ = s.d;
