@@ -158,7 +158,7 @@ results::RunSummary simulate(const model::BuiltModel& built, JournaledSink& sink
       checkpoints.emplace(simulation, interval, [&directory](const base::SavedValues& state) {
         directory.write_checkpoint(state);
       });
-      directory.checkpoint_at_end([&simulation] { return simulation.save(); });
+      directory.checkpoint_at_end([&simulation] { return simulation.save_to_write(); });
     }
     simulation.record_into(records);
     results::RunSummary summary = simulation.run();

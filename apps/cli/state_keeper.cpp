@@ -79,7 +79,7 @@ void StateKeeper::start() {
 }
 
 void StateKeeper::save() {
-  run_store::write_state(simulation_.save(), arguments_.save);
+  run_store::write_state(simulation_.save_to_write(), arguments_.save);
   is_saved_ = true;
   journal_.say(base::LogLevel::info, fmt::format("state at t = {:.6g} s saved in {}",
                                                  simulation_.time(), arguments_.save));

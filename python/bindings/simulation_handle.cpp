@@ -89,7 +89,7 @@ void SimulationHandle::keep_checkpoints() {
   checkpoints_.emplace(*simulation_, interval, [this, marked](base::SavedValues state) {
     directory_->write_checkpoint(marked(std::move(state)));
   });
-  directory_->checkpoint_at_end([this, marked] { return marked(simulation_->save()); });
+  directory_->checkpoint_at_end([this, marked] { return marked(simulation_->save_to_write()); });
 }
 
 SimulationHandle::~SimulationHandle() {
@@ -273,7 +273,7 @@ void SimulationHandle::save(const std::string& path) const {
   require_at_rest("save");
   const Evaluating evaluating(phase_);
   const py::gil_scoped_release unlocked;
-  run_store::write_state(simulation_->save(), path);
+  run_store::write_state(simulation_->save_to_write(), path);
 }
 
 void SimulationHandle::flush() {

@@ -25,7 +25,7 @@ bool are_finite(const Numbers& values) {
 }  // namespace
 
 SaveVisit SaveVisit::inside(const std::string& name) const {
-  return {out_, from_, prefix_ + name + "/"};
+  return {out_, from_, prefix_ + name + "/", makes_later_};
 }
 
 void SaveVisit::refuse(const std::string& name, const std::string& what) const {
@@ -100,20 +100,25 @@ void SaveVisit::vector(const std::string& name, Eigen::VectorXd& value, Eigen::I
   }
 }
 
-void SaveVisit::vector(const std::string& name, Eigen::VectorXf& value, Eigen::Index size) const {
-  if (!is_restoring()) {
-    out_->singles[prefix_ + name].assign(value.data(), value.data() + value.size());
+void SaveVisit::save_singles(const std::string& name, Eigen::Index size,
+                             std::function<Eigen::VectorXf()> make) const {
+  if (makes_later_) {
+    out_->later[prefix_ + name] = {static_cast<std::size_t>(size), std::move(make)};
     return;
   }
+  const Eigen::VectorXf value = make();
+  out_->singles[prefix_ + name].assign(value.data(), value.data() + value.size());
+}
+
+Eigen::VectorXf SaveVisit::restored_singles(const std::string& name, Eigen::Index size) const {
   const auto found = from_->singles.find(prefix_ + name);
   if (found == from_->singles.end()) {  // it comes from a file
     Eigen::VectorXd numbers;
     vector(name, numbers, size);
-    value = numbers.cast<float>();
-    return;
+    return numbers.cast<float>();
   }
   require(name, found->second, static_cast<std::size_t>(size));
-  value = Eigen::Map<const Eigen::VectorXf>(found->second.data(), size);
+  return Eigen::Map<const Eigen::VectorXf>(found->second.data(), size);
 }
 
 void SaveVisit::vector_or_none(const std::string& name, Eigen::VectorXd& value,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <span>
 #include <string>
@@ -15,14 +16,26 @@ namespace buckens::base {
 /// Named lists of numbers and strings that make up a saved state. Names are paths, such as
 /// "state/bodies/0/d".
 struct SavedValues {
+  /// Numbers in single precision that are not there yet.
+  struct Later {
+    std::size_t size = 0;
+    std::function<Eigen::VectorXf()> make;
+  };
+
   std::map<std::string, std::vector<double>> numbers;
   /// Numbers that single precision holds exactly, in half of the memory. Files have them among
   /// `numbers`.
   std::map<std::string, std::vector<float>> singles;
+  /// The same, made list by list as they are written: only while what they come from is as it was.
+  std::map<std::string, Later> later;
   std::map<std::string, std::vector<std::int64_t>> counts;
   std::map<std::string, std::vector<std::string>> texts;
 
-  bool operator==(const SavedValues&) const = default;
+  /// @pre nothing comes later
+  bool operator==(const SavedValues& other) const {
+    return numbers == other.numbers && singles == other.singles && counts == other.counts &&
+           texts == other.texts;
+  }
 };
 
 /// Visits the members of an object to save or restore. Each member is named only once, so that
@@ -32,8 +45,10 @@ struct SavedValues {
 /// @throws InputError naming a value that is missing or invalid
 class SaveVisit {
  public:
-  static SaveVisit saving(SavedValues& out) { return {&out, nullptr, ""}; }
-  static SaveVisit restoring(const SavedValues& from) { return {nullptr, &from, ""}; }
+  static SaveVisit saving(SavedValues& out) { return {&out, nullptr, "", false}; }
+  /// Long lists come later, to spare memory.
+  static SaveVisit saving_to_write(SavedValues& out) { return {&out, nullptr, "", true}; }
+  static SaveVisit restoring(const SavedValues& from) { return {nullptr, &from, "", false}; }
 
   bool is_restoring() const { return from_ != nullptr; }
   /// The same, with a name.
@@ -55,7 +70,10 @@ class SaveVisit {
   void rotation(const std::string& name, Eigen::Quaterniond& q) const;
   /// A vector that must have this size when restored.
   void vector(const std::string& name, Eigen::VectorXd& value, Eigen::Index size) const;
-  void vector(const std::string& name, Eigen::VectorXf& value, Eigen::Index size) const;
+  /// The same of numbers that exist elsewhere, in single precision. @param make them, to be saved
+  void save_singles(const std::string& name, Eigen::Index size,
+                    std::function<Eigen::VectorXf()> make) const;
+  Eigen::VectorXf restored_singles(const std::string& name, Eigen::Index size) const;
   /// The same for a vector that may also be empty.
   void vector_or_none(const std::string& name, Eigen::VectorXd& value, Eigen::Index size) const;
   void list(const std::string& name, std::vector<double>& values, std::size_t size) const;
@@ -72,8 +90,8 @@ class SaveVisit {
   [[noreturn]] void refuse(const std::string& name, const std::string& what) const;
 
  private:
-  SaveVisit(SavedValues* out, const SavedValues* from, std::string prefix)
-      : out_(out), from_(from), prefix_(std::move(prefix)) {}
+  SaveVisit(SavedValues* out, const SavedValues* from, std::string prefix, bool makes_later)
+      : out_(out), from_(from), prefix_(std::move(prefix)), makes_later_(makes_later) {}
   const std::vector<double>& find_numbers(const std::string& name) const;
   const std::vector<double>& find_numbers(const std::string& name, std::size_t size) const;
   template <class Numbers>
@@ -82,6 +100,7 @@ class SaveVisit {
   SavedValues* out_;
   const SavedValues* from_;
   std::string prefix_;
+  bool makes_later_;
 };
 
 }  // namespace buckens::base

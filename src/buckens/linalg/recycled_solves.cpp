@@ -2,7 +2,9 @@
 #include "buckens/linalg/recycled_solves.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 namespace buckens::linalg {
@@ -191,12 +193,22 @@ void RecycledSolves::visit_saved(const base::SaveVisit& visit) {
 }
 
 void RecycledSolves::visit_pair(const base::SaveVisit& visit, int pair) {
-  VectorXf load, answer;
-  if (!visit.is_restoring()) pairs_->take(pair, load, answer);
-  visit.vector("load", load, rows());
-  visit.vector("answer", answer, rows());
-  if (!visit.is_restoring()) return;
-  pairs_->put(pair, 1.0, load.cast<double>(), answer.cast<double>(), nullptr);
+  if (visit.is_restoring()) {
+    const VectorXf load = visit.restored_singles("load", rows());
+    const VectorXf answer = visit.restored_singles("answer", rows());
+    pairs_->put(pair, 1.0, load.cast<double>(), answer.cast<double>(), nullptr);
+    return;
+  }
+  // Other processes may have the pair, and send both: the second waits for its turn.
+  auto both = std::make_shared<std::array<VectorXf, 2>>();
+  const auto save = [&](const char* name, std::size_t which) {
+    visit.save_singles(name, rows(), [this, pair, both, which] {
+      if ((*both)[which].size() == 0) pairs_->take(pair, (*both)[0], (*both)[1]);
+      return std::exchange((*both)[which], {});
+    });
+  };
+  save("load", 0);
+  save("answer", 1);
 }
 
 }  // namespace buckens::linalg

@@ -90,11 +90,11 @@ struct Place {
   Hdf5Handle there, here;
 };
 
-template <class Number>
-void put_at(hid_t set, std::size_t first, const std::vector<Number>& values) {
-  if (values.empty()) return;
+template <class Numbers>
+void put_at(hid_t set, std::size_t first, const Numbers& values) {
+  if (values.size() == 0) return;
   const Place place(set, first, values.size());
-  sound(H5Dwrite(set, type_of(Number{}), place.here.get(), place.there.get(), H5P_DEFAULT,
+  sound(H5Dwrite(set, type_of(*values.data()), place.here.get(), place.there.get(), H5P_DEFAULT,
                  values.data()),
         "write a data set");
 }
@@ -143,6 +143,22 @@ class FoundSet {
 
 std::vector<std::uint8_t> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
 
+template <class Number>
+std::size_t length_of(const std::vector<Number>& list) {
+  return list.size();
+}
+std::size_t length_of(const base::SavedValues::Later& list) { return list.size; }
+
+template <class Number>
+const std::vector<Number>& made(const std::vector<Number>& list) {
+  return list;
+}
+Eigen::VectorXf made(const base::SavedValues::Later& list) {
+  Eigen::VectorXf out = list.make();
+  BUCKENS_ASSERT(static_cast<std::size_t>(out.size()) == list.size);
+  return out;
+}
+
 /// Lists are long: they are written and read one by one, and never put together here.
 /// @param first its numbers have the type of the file, to which HDF5 converts others
 template <class Map, class... Maps>
@@ -163,8 +179,8 @@ void put_group(hid_t file, const char* name, const Map& first, const Maps&... mo
   std::size_t size = 0;
   visit([&](const std::string& path, const auto& list) {
     names += path + '\n';
-    lengths.push_back(static_cast<std::int64_t>(list.size()));
-    size += list.size();
+    lengths.push_back(static_cast<std::int64_t>(length_of(list)));
+    size += length_of(list);
   });
   put(group.get(), "names", bytes_of(names));
   put(group.get(), "lengths", lengths);
@@ -172,8 +188,8 @@ void put_group(hid_t file, const char* name, const Map& first, const Maps&... mo
       data_set<typename Map::mapped_type::value_type>(group.get(), "values", size);
   std::size_t at = 0;
   visit([&](const std::string&, const auto& list) {
-    put_at(values.get(), at, list);
-    at += list.size();
+    put_at(values.get(), at, made(list));
+    at += length_of(list);
   });
 }
 
@@ -237,7 +253,7 @@ void write_content(const base::SavedValues& state, const std::filesystem::path& 
   Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose);
   if (fault.error == 0) {
     sound(file.get(), "write a state");
-    put_group(file.get(), "numbers", state.numbers, state.singles);
+    put_group(file.get(), "numbers", state.numbers, state.singles, state.later);
     put_group(file.get(), "counts", state.counts);
     put_group(file.get(), "texts", packed(state));
     file.reset();

@@ -182,7 +182,7 @@ class Sweep {
       checkpoints.emplace(simulation, interval, [&directory](const base::SavedValues& state) {
         directory.write_checkpoint(state);
       });
-      directory.checkpoint_at_end([&simulation] { return simulation.save(); });
+      directory.checkpoint_at_end([&simulation] { return simulation.save_to_write(); });
     }
     try {
       simulation.record_into(directory);

@@ -25,7 +25,7 @@ Checkpoints::Checkpoints(Simulation& simulation, double interval, Write write)
 void Checkpoints::after_step() {
   const Clock::time_point begin = Clock::now();
   if (begin < next_ || simulation_.is_done()) return;  // there is nothing to go on with
-  write_(simulation_.save());
+  write_(simulation_.save_to_write());
   const Clock::time_point end = Clock::now();
   next_ = end + std::max(interval_, (kMostShare - 1) * (end - begin));
 }

@@ -55,7 +55,7 @@ class SimulationRun {
   void set_signal(const std::string& signal, double value);
   double signal(const std::string& name) const;
 
-  base::SavedValues save();
+  void save(const base::SaveVisit& visit);
   void restore(const base::SavedValues& saved, Leeway leeway);
 
   void stop() { is_stopped_ = true; }

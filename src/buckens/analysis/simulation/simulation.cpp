@@ -141,7 +141,17 @@ void Simulation::set_signal(const std::string& signal, double value) {
   run_->set_signal(signal, value);
 }
 
-base::SavedValues Simulation::save() const { return run_->save(); }
+base::SavedValues Simulation::save() const {
+  base::SavedValues out;
+  run_->save(base::SaveVisit::saving(out));
+  return out;
+}
+
+base::SavedValues Simulation::save_to_write() const {
+  base::SavedValues out;
+  run_->save(base::SaveVisit::saving_to_write(out));
+  return out;
+}
 
 void Simulation::restore(const base::SavedValues& saved, Leeway leeway) {
   run_->restore(saved, leeway);

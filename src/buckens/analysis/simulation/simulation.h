@@ -142,6 +142,9 @@ class Simulation {
   // ---- save and go on
   /// Everything needed to continue bit for bit.
   base::SavedValues save() const;
+  /// The same to be written to a file before the simulation goes on: long lists are made as they
+  /// are written, and never in memory together.
+  base::SavedValues save_to_write() const;
   /// Continues from there. The model must be the same except for its title, duration and leeway.
   /// @pre no step was taken
   /// @throws InputError saying what differs; the simulation is then unusable

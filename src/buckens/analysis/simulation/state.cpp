@@ -256,11 +256,9 @@ void SimulationRun::visit_saved(const base::SaveVisit& visit) {
   is_at_end_ = spec_.duration <= ended;
 }
 
-base::SavedValues SimulationRun::save() {
-  base::SavedValues out;
+void SimulationRun::save(const base::SaveVisit& visit) {
   std::vector<std::string> version = {kVersion};
   std::vector<std::string> lines = identity();
-  const base::SaveVisit visit = base::SaveVisit::saving(out);
   visit.texts("version", version);
   visit.texts("model", lines);
   visit_saved(visit);
@@ -269,7 +267,6 @@ base::SavedValues SimulationRun::save() {
   visit.number("march_start", march_start_);
   march_->visit_saved(visit.inside("march"));
   if (recording_) recording_->visit_saved(visit.inside("recording"));
-  return out;
 }
 
 void SimulationRun::restore(const base::SavedValues& saved, Leeway leeway) {

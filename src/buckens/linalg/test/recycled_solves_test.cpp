@@ -219,6 +219,13 @@ TEST(RecycledSolves, GoOnBitwiseFromWhatWasSaved) {
   for (int k = 0; k < 9; ++k) answered(kept, chain, chain.load(k % 7), 1e-4);
   base::SavedValues saved;
   kept.visit_saved(base::SaveVisit::saving(saved));
+  base::SavedValues to_write;
+  kept.visit_saved(base::SaveVisit::saving_to_write(to_write));
+  EXPECT_EQ(to_write.later.size(), 10U);
+  for (const auto& [name, list] : to_write.later) {
+    const Eigen::VectorXf made = list.make();
+    EXPECT_EQ(std::vector<float>(made.begin(), made.end()), saved.singles.at(name)) << name;
+  }
   RecycledSolves other(chain.inverse_diagonal(), 5);
   other.visit_saved(base::SaveVisit::restoring(saved));
   EXPECT_EQ(other.num_pairs(), 5);

@@ -63,13 +63,28 @@ TEST(StateFile, HasNumbersOfSinglePrecisionAmongTheOthers) {
   EXPECT_EQ(found, expected);
   // What holds them gets the same numbers from the file and from the state itself.
   for (const base::SavedValues* from : {&found, &std::as_const(state)}) {
-    Eigen::VectorXf load;
-    base::SaveVisit::restoring(*from).inside("pairs").inside(0).vector("load", load, 3);
-    EXPECT_EQ(load, Eigen::Vector3f(1.0F / 3.0F, -0.0F, 1e-38F));
-    EXPECT_THROW(
-        base::SaveVisit::restoring(*from).inside("pairs").inside(0).vector("load", load, 4),
-        InputError);
+    const base::SaveVisit pair = base::SaveVisit::restoring(*from).inside("pairs").inside(0);
+    EXPECT_EQ(pair.restored_singles("load", 3), Eigen::Vector3f(1.0F / 3.0F, -0.0F, 1e-38F));
+    EXPECT_THROW((void)pair.restored_singles("load", 4), InputError);
   }
+}
+
+/// Saves some pairs, each number of which is its number.
+void visit_pairs(const base::SaveVisit& visit, int pairs, Eigen::Index size) {
+  for (int k = 0; k < pairs; ++k) {
+    visit.inside("pairs").inside(static_cast<std::size_t>(k)).save_singles("load", size, [=] {
+      return Eigen::VectorXf(Eigen::VectorXf::Constant(size, static_cast<float>(k)));
+    });
+  }
+}
+
+TEST(StateFile, IsTheSameIfListsAreMadeAsTheyAreWritten) {
+  base::SavedValues at_once = some_state(), later = some_state();
+  visit_pairs(base::SaveVisit::saving(at_once), 3, 5);
+  visit_pairs(base::SaveVisit::saving_to_write(later), 3, 5);
+  EXPECT_EQ(at_once.singles.size(), 3U);
+  EXPECT_TRUE(later.singles.empty());
+  EXPECT_EQ(state_bytes(later), state_bytes(at_once));
 }
 
 TEST(StateFile, AFullDiskLeavesTheStateThatWasThere) {
@@ -119,6 +134,9 @@ TEST(StateFile, IsWrittenWithoutMemoryAndReadWithLittleMoreThanTheFileTwice) {
   }
   // A piece of the file for its checksum, buffers of HDF5.
   EXPECT_LT(peak_of([&] { write_state(state, some_path()); }), 0.15 * kSize);
+  base::SavedValues later;
+  visit_pairs(base::SaveVisit::saving_to_write(later), kLists, kNumbers);
+  EXPECT_LT(peak_of([&] { write_state(later, some_path()); }), 0.15 * kSize);
   const std::string bytes = state_bytes(state);
   ASSERT_GT(static_cast<double>(bytes.size()), kSize);
   base::SavedValues found;
