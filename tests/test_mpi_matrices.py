@@ -2,23 +2,33 @@
 """Modes, statics and reductions of large bodies over several processes: M and K stay with those that have them."""
 
 import json
+import subprocess
 
 import pytest
 
-from models_of_many_variables import CUBE, SHELLS, SIDE
-from mpi_runs import mpirun, must, several, sets  # noqa: F401
+from conftest import PROGRAM
+
+from models_of_many_variables import CUBE, SHELLS, SIDE, cube
+from mpi_runs import ENVIRONMENT, MPIRUN, mpirun, must, several, sets  # noqa: F401
 from test_solver import largest_difference, sensors
 
 FIXED = CUBE.replace("{spherical:", "{fixed:")
 PULL = "loads: {pull: {force: {on: cube/corner_111, value: [0, 0, 1 kN]}}}\n"
-# What the first process brings of a solid while the model is built: entries of the scalar mass matrix.
-NODES = SIDE + 1  # along each edge of the cube
-SCALAR_MASS = 12 * (3 * NODES - 2)**3 + 4 * (NODES**3 + 1)
+
+
+def scalar_mass(side):
+    """What the first process brings of a solid while the model is built: entries of the scalar mass matrix [bytes]."""
+    nodes = side + 1  # along each edge of the cube
+    return 12 * (3 * nodes - 2)**3 + 4 * (nodes**3 + 1)
 
 
 def modes(result):
     (report,) = json.loads(result)["analyses"]
     return [mode["omega_squared"] for mode in report["modes"]], report["work"]
+
+
+def summary_of(directory):
+    return json.loads((directory / "summary.json").read_text())
 
 
 ANALYSES = {
@@ -53,8 +63,28 @@ def test_a_static_path_leaves_matrices_where_they_are(buckens, mpirun, tmp_path)
     buckens("static", "cube.yaml", "-o", "one").must(0)
     must(mpirun(2, "static", "cube.yaml", "-o", "two"))
     assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < 1e-9
-    summary = json.loads((tmp_path / "two" / "summary.json").read_text())
-    assert summary["measures"]["bytes_of_whole_matrices"] == 0
+    assert summary_of(tmp_path / "two")["measures"]["bytes_of_whole_matrices"] == 0
+
+
+@several
+def test_an_automatic_solver_leaves_matrices_where_they_are(tmp_path):
+    """Where it is not certain that the factor fits into memory, its size is predicted from the graph that the processes find together."""
+    side = 18
+    (tmp_path / "cube.yaml").write_text(cube(side))
+    dof = 3 * (side + 1)**3
+    # Half of this is usable, and less than a full triangle.
+    limited = 3_000_000
+    assert 4 * dof**2 > 1024 * limited / 2
+    notes = {}
+    for name, program in (("one", [PROGRAM]), ("two", [MPIRUN, "-n", "2", PROGRAM])):
+        command = ["sh", "-c", f"ulimit -v {limited}; exec \"$@\"", "sh", *program, "run", "cube.yaml", "-o", name,
+                   *sets("bodies.cube.solver=auto", "simulation.duration=0.1 ms")]
+        must(subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=240, check=False, env=ENVIRONMENT,
+                            stdin=subprocess.DEVNULL))
+        notes[name] = [note for note in summary_of(tmp_path / name)["notes"] if "solver" in note]
+    assert f"direct, since the factor of {dof} variables is predicted to take" in notes["one"][0]
+    assert notes["two"] == notes["one"], "the same graph, the same order"
+    assert summary_of(tmp_path / "two")["measures"]["bytes_of_whole_matrices"] == scalar_mass(side)
 
 
 REDUCTIONS = {
@@ -76,7 +106,7 @@ def test_reductions_leave_matrices_where_they_are(buckens, mpirun, tmp_path, nam
     must(mpirun(2, "run", "two/cube.yaml", "-o", "two/out"))
     assert largest_difference(sensors(tmp_path / "two" / "out"), sensors(tmp_path / "one" / "out")) < 1e-7
     summary = json.loads((tmp_path / "two" / "out" / "summary.json").read_text())
-    assert summary["measures"]["bytes_of_whole_matrices"] == SCALAR_MASS
+    assert summary["measures"]["bytes_of_whole_matrices"] == scalar_mass(SIDE)
     if name == "quasi-static":
         return
     kept = (tmp_path / "one" / "kept.h5").stat().st_mtime_ns

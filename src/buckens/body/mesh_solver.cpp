@@ -25,8 +25,7 @@ SolverDecision decide_solver(const SolverChoice& choice, const linalg::MatrixSum
                                "(usable: {:.3g} GB)",
                                A.size(), most / kGigabyte, memory / kGigabyte)};
   }
-  const linalg::SparseMatrix* alone = A.alone();
-  const linalg::PredictedFactor predicted = linalg::predict_factor(alone ? *alone : A.whole());
+  const linalg::PredictedFactor predicted = linalg::predict_factor(A);
   const std::string sizes = fmt::format(
       "the factor of {} variables is predicted to take {:.3g} GB, {:.3g} GB while it is computed "
       "(usable: {:.3g} GB)",

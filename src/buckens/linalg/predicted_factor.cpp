@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "buckens/linalg/divided_graph.h"
 #include "buckens/linalg/front.h"
 #include "buckens/linalg/front_plan.h"
 #include "buckens/linalg/panel_kernels.h"
@@ -102,8 +103,9 @@ class PostorderMemory {
 
 }  // namespace
 
-PredictedFactor predict_factor(const SparseMatrix& A) {
-  const SupernodeTree tree = find_supernode_tree(A);
+PredictedFactor predict_factor(const MatrixSum& A) {
+  const SupernodeTree tree =
+      A.is_divided() ? find_supernode_tree(column_graph(A.divide())) : find_supernode_tree(A);
   const PostorderMemory memory(tree);
   return {memory.columns(), memory.most()};
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/matrix_sum.h"
 
 namespace buckens::linalg {
 
@@ -11,9 +11,9 @@ struct PredictedFactor {
   double peak = 0;   ///< at most, with the fronts that one thread needs while it is computed
 };
 
-/// @param A symmetric, both triangles stored; the values are not read. Takes a tenth of the time
-/// of the factor, or less.
-PredictedFactor predict_factor(const SparseMatrix& A);
+/// @param A the values are not read, and it is not formed, wherever its terms are. Takes a tenth
+/// of the time of the factor, or less.
+PredictedFactor predict_factor(const MatrixSum& A);
 
 /// Bytes that no factor of a matrix of this size exceeds: those of a full triangle.
 double most_factor_bytes(Eigen::Index size);

@@ -6,8 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "buckens/linalg/elimination_order.h"
-
 namespace buckens::linalg {
 
 namespace {
@@ -248,14 +246,14 @@ class Elimination {
 }  // namespace
 
 SupernodeTree find_supernode_tree(const SparseMatrix& A) {
-  const ColumnGraph graph = column_graph(A);
-  return Elimination(graph).tree();
+  return find_supernode_tree(column_graph(A));
 }
 
 SupernodeTree find_supernode_tree(const MatrixSum& A) {
-  const ColumnGraph graph = column_graph(A);
-  return Elimination(graph).tree();
+  return find_supernode_tree(column_graph(A));
 }
+
+SupernodeTree find_supernode_tree(const ColumnGraph& graph) { return Elimination(graph).tree(); }
 
 SupernodeTree supernode_tree(const Supernodes& source) {
   const auto count = static_cast<std::size_t>(source.count);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "buckens/linalg/elimination_order.h"
 #include "buckens/linalg/matrix_sum.h"
 #include "buckens/linalg/supernodes.h"
 
@@ -43,6 +44,7 @@ struct SupernodeTree {
 /// @param A symmetric, both triangles stored; the values are not read
 SupernodeTree find_supernode_tree(const SparseMatrix& A);
 SupernodeTree find_supernode_tree(const MatrixSum& A);
+SupernodeTree find_supernode_tree(const ColumnGraph& graph);
 
 /// The structure of a factor that CHOLMOD has computed.
 SupernodeTree supernode_tree(const Supernodes& source);
