@@ -36,6 +36,13 @@ bool is_among(int code, const int (&codes)[count]) {
   return std::find(codes, codes + count, code) != codes + count;
 }
 
+// Short beside a factorisation that needs the memory, and long beside letting pages go. Entries
+// are read once; columns of the factor are not read again until it is made, but fronts are: their
+// pages come back when they are needed next. So those of the room go only when this share of it is
+// in memory, which is soon looked up, since a front can grow fast.
+constexpr std::chrono::milliseconds kEntriesGo{50}, kRoomIsLookedAt{5};
+constexpr std::size_t kShareInMemory = 4;
+
 constexpr const char* kNegativePivot = "the matrix is not positive definite";
 constexpr int kNarrowFront = 2;
 // Subtrees of the elimination that one process works on alone may differ in work by so much [%].
@@ -45,6 +52,8 @@ constexpr int kEvenSubtrees = 100;
 constexpr double kMillion = 1e6;
 /// Numbers that MUMPS gives in millions where they are large.
 double number(int value) { return value < 0 ? -kMillion * value : value; }
+
+std::size_t bytes_of(double numbers) { return static_cast<std::size_t>(numbers) * sizeof(double); }
 
 struct Triplets {
   double* values;
@@ -197,7 +206,7 @@ bool MumpsFactor::analyse() {
 bool MumpsFactor::make() {
   bool is_made = false;
   {
-    const LettingGo entries(pages_);
+    const LettingGo entries(pages_, kEntriesGo);
     is_made = analyse() && factorise() && is_positive_definite() && find_variables();
   }
   mumps_.irn_loc = mumps_.jcn_loc = mumps_.perm_in = nullptr;
@@ -211,13 +220,13 @@ bool MumpsFactor::make() {
 bool MumpsFactor::set_aside(double numbers) {
   const double millions = std::ceil(numbers / kMillion);
   constexpr double kMost = std::numeric_limits<int>::max();
-  int is_there = millions < kMost && workspace_.set_aside(static_cast<std::size_t>(numbers));
+  int is_there = millions < kMost && room_.set_aside(bytes_of(numbers));
   MPI_Allreduce(MPI_IN_PLACE, &is_there, 1, MPI_INT, MPI_MIN, comm_);
   if (is_there == 0) {
     set_reason("there is too little memory for the factor");
     return false;
   }
-  mumps_.wk_user = workspace_.data();
+  mumps_.wk_user = reinterpret_cast<double*>(room_.data());
   mumps_.lwk_user = static_cast<int>(numbers <= kMost ? numbers : -std::floor(numbers / kMillion));
   return true;
 }
@@ -236,9 +245,13 @@ double MumpsFactor::numbers_at_first() const {
 
 bool MumpsFactor::factorise() {
   give_memory_back();  // of the analysis and of what came before
-  FactorRoom room(numbers_at_first(), number(mumps_.info[8 - 1]));
+  const double predicted = number(mumps_.info[8 - 1]);
+  // Room that is not used costs nothing on a disk.
+  const bool is_ample = room_.set_aside(bytes_of(predicted)) && room_.is_on_disk();
+  FactorRoom room(is_ample ? predicted : numbers_at_first(), predicted);
   for (;;) {
     if (!set_aside(room.numbers())) return false;
+    const LettingGo factor(room_, kRoomIsLookedAt, room_.bytes() / kShareInMemory);
     if (run(kFactorise)) break;
     const int code = mumps_.infog[0];
     if (!is_among(code, kNarrow)) return false;
@@ -246,7 +259,7 @@ bool MumpsFactor::factorise() {
     if (!room.grow(lacking)) return false;
   }
   // Where the factor ends: KEEP8(31). Its solves need hardly more.
-  workspace_.keep(static_cast<std::size_t>(mumps_.keep8[31 - 1]));
+  room_.bring_back(static_cast<std::size_t>(mumps_.keep8[31 - 1]) * sizeof(double));
   return true;
 }
 

@@ -8,7 +8,6 @@
 #include <mpi.h>
 
 #include "pages_on_disk.h"
-#include "workspace.h"
 
 namespace buckens_petsc {
 
@@ -67,7 +66,8 @@ class MumpsFactor {
   DMUMPS_STRUC_C mumps_{};
   MPI_Comm comm_;
   MPI_Comm reordered_ = MPI_COMM_NULL;  // the processes in the order in which MUMPS has them
-  Workspace workspace_;
+  // Room for the factor and for fronts that wait; when it is made, memory of the factor.
+  PagesOnDisk room_;
   // Until the factor is made: values, rows and columns, and places of the variables, from 1.
   PagesOnDisk pages_;
   bool is_indefinite_ = false;

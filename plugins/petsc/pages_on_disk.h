@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <mutex>
@@ -20,22 +21,30 @@ class PagesOnDisk {
   /// @return whether it was possible; what was there before goes
   bool set_aside(std::size_t bytes);
   char* data() const { return data_; }
-  /// Lets all pages leave. Others may read them meanwhile.
+  std::size_t bytes() const { return bytes_; }
+  bool is_on_disk() const { return is_on_disk_; }
+  /// Lets all pages leave. Others may read and write them meanwhile.
   void let_go() const;
+  /// Brings the first bytes into memory for good, at the same address, and gives back what is
+  /// behind them. Nobody else may use them meanwhile.
+  void bring_back(std::size_t bytes);
 
  private:
   bool map(int flags, int file);
+  bool take_from_disk(std::size_t at, std::size_t bytes);
 
   char* data_ = nullptr;
   std::size_t bytes_ = 0;
   bool is_on_disk_ = false;
 };
 
-/// Lets pages go again and again while it lives: of something that others read once, nobody can
-/// tell when.
+/// Lets pages go again and again while it lives: of something that others read or write once,
+/// nobody can tell when.
 class LettingGo {
  public:
-  explicit LettingGo(const PagesOnDisk& pages);
+  /// @param between one time and the next
+  /// @param most bytes of files that this process may have more than now before they go
+  LettingGo(const PagesOnDisk& pages, std::chrono::milliseconds between, std::size_t most = 0);
   ~LettingGo();
   LettingGo(const LettingGo&) = delete;
   LettingGo& operator=(const LettingGo&) = delete;
