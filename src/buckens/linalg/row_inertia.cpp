@@ -28,15 +28,25 @@ class NodeInertia final : public RowInertia {
     kernels_->couple(mass_, 0, nodes_, vectors.data(), weights, load, sums);
   }
   void add_moments(const double* x, double* sums) const override {
-    NodeSums own;
-    kernels_->moments(tables_->first_moments.data(), 0, nodes_, x, own);
-    for (int k = 0; k < kMomentSums; ++k) sums[k] += own.value[k];
+    add_products(tables_->first_moments, x, sums);
   }
   void subtract(const double* motion, double* y) const override {
     kernels_->subtract(tables_->positions.data(), 0, nodes_, motion, y);
   }
+  void add_resultants(const double* f, double* sums) const override {
+    add_products(tables_->positions, f, sums);
+  }
+  void subtract_load(const double* motion, double* f) const override {
+    kernels_->subtract(tables_->first_moments.data(), 0, nodes_, motion, f);
+  }
 
  private:
+  void add_products(const Eigen::Matrix4Xd& places, const double* x, double* sums) const {
+    NodeSums own;
+    kernels_->moments(places.data(), 0, nodes_, x, own);
+    for (int k = 0; k < kMomentSums; ++k) sums[k] += own.value[k];
+  }
+
   const NodeKernels* kernels_ = &node_kernels();
   const NodeTables* tables_;
   int nodes_;

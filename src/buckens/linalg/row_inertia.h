@@ -28,6 +28,12 @@ class RowInertia {
   virtual void add_moments(const double* x, double* sums) const = 0;
   /// y ← y − Φ a. @param motion T as of NodeKernels::subtract for nodes, amplitudes a for variables
   virtual void subtract(const double* motion, double* y) const = 0;
+  /// Of loads: of nodes NodeKernels::moments about their positions, of variables Φᵀf.
+  /// @param sums kMomentSums, added to
+  virtual void add_resultants(const double* f, double* sums) const = 0;
+  /// Of nodes f ← f − T (s, m), of variables f ← f − P a − c b, c the patterns. @param motion T as
+  /// of NodeKernels::subtract for nodes, a and from kPatternSums on b for variables
+  virtual void subtract_load(const double* motion, double* f) const = 0;
 
  protected:
   RowInertia() = default;

@@ -88,6 +88,26 @@ void RowProgram::subtract(const DividedVector& y, const double* motion) {
   put_.all(motion, kMotionNumbers);
 }
 
+RowProgram::Sums RowProgram::resultants(const DividedVector& f) {
+  put_(RowTask::resultants);
+  put_(f.number());
+  return expect(kMomentSums);
+}
+
+void RowProgram::subtract_load(const DividedVector& f, const double* motion) {
+  put_(RowTask::subtract_load);
+  put_(f.number());
+  put_.all(motion, kMotionNumbers);
+}
+
+void RowProgram::add_row_loads(const DividedVector& f, const Eigen::Ref<const Vector>& weights) {
+  put_(RowTask::add_row_loads);
+  put_(f.number());
+  Vector all = Vector::Zero(of_->num_rows());
+  all.head(weights.size()) = weights;
+  put_.all(all.data(), static_cast<std::size_t>(all.size()));
+}
+
 RowProgram::Sums RowProgram::row_products(std::span<const DividedVector* const> vectors) {
   put_(RowTask::row_products);
   put_(static_cast<int>(vectors.size()));

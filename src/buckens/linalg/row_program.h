@@ -46,6 +46,14 @@ class RowProgram {
   Sums moments(const DividedVector& x);
   /// y ← y − Φ a. @param motion see RowInertia::subtract @pre no other copy of y is used
   void subtract(const DividedVector& y, const double* motion);
+  /// See RowInertia::add_resultants.
+  Sums resultants(const DividedVector& f);
+  /// f ← f − P a − patterns. @param motion see RowInertia::subtract_load @pre no other copy of f is
+  /// used
+  void subtract_load(const DividedVector& f, const double* motion);
+  /// f ← f + Nᵀ weights. @param weights of the first rows, those of others are zero @pre no other
+  /// copy of f is used
+  void add_row_loads(const DividedVector& f, const Eigen::Ref<const Vector>& weights);
   /// N x of each, one after the other.
   Sums row_products(std::span<const DividedVector* const> vectors);
   Sums row_products(std::initializer_list<const DividedVector*> vectors) {

@@ -18,6 +18,9 @@ enum class RowTask : std::int32_t {
   couple,         ///< load or −1, d, ḋ, d̈, 24 weights: RowInertia::couple; all of `NodeSums`
   moments,        ///< x: RowInertia::add_moments; kMomentSums
   subtract,       ///< y, kMotionNumbers: RowInertia::subtract
+  resultants,     ///< f: RowInertia::add_resultants; kMomentSums
+  subtract_load,  ///< f, kMotionNumbers: RowInertia::subtract_load
+  add_row_loads,  ///< f, as many weights as N has rows: f ← f + Nᵀ weights
   row_products,   ///< count, x…: N x; as many sums per x as N has rows
   compare,        ///< x, x before, weights, weights of the largest: kCompared sums
   total,          ///< count, x…: the sum of all numbers; not finite if one of them is not

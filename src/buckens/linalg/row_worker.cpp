@@ -82,20 +82,11 @@ void RowWorker::do_task(RowTask task, const Space& space, Take& take, RowPeers& 
     case RowTask::combine:
       combine(space, take);
       break;
-    case RowTask::multiply_mass:
-      multiply_mass(space, take, peers);
-      break;
     case RowTask::multiply:
       multiply(space, take, peers);
       break;
-    case RowTask::couple:
-      couple(space, take, peers);
-      break;
-    case RowTask::moments:
-      add_moments(space, take);
-      break;
-    case RowTask::subtract:
-      subtract(space, take);
+    case RowTask::add_row_loads:
+      add_row_loads(space, take);
       break;
     case RowTask::row_products:
       multiply_rows(space, take);
@@ -114,6 +105,14 @@ void RowWorker::do_task(RowTask task, const Space& space, Take& take, RowPeers& 
       break;
     case RowTask::scale:
       scale(space, take);
+      break;
+    case RowTask::multiply_mass:
+    case RowTask::couple:
+    case RowTask::moments:
+    case RowTask::subtract:
+    case RowTask::resultants:
+    case RowTask::subtract_load:
+      do_inertia(task, space, take, peers);
       break;
     case RowTask::pair_products:
     case RowTask::subtract_loads:
@@ -164,46 +163,10 @@ void RowWorker::fill_beside(const Space& space, std::initializer_list<double*> v
   }
 }
 
-void RowWorker::multiply_mass(const Space& space, Take& take, RowPeers& peers) {
-  double* y = make_room(space, take.next<int>());
-  double* x = at(take.next<int>());
-  fill_beside(space, {x}, peers);
-  space.inertia->multiply_mass(x, y);
-}
-
 void RowWorker::multiply(const Space& space, Take& take, RowPeers& peers) {
   double* y = make_room(space, take.next<int>());
   const double* x = at(take.next<int>());
   peers.multiply(take.next<int>(), x, y);
-}
-
-void RowWorker::couple(const Space& space, Take& take, RowPeers& peers) {
-  const auto load = take.next<int>();
-  std::array<double*, 3> vectors{};
-  for (double*& x : vectors) x = at(take.next<int>());
-  std::array<double, kCoupleWeights> weights{};
-  take.take_all(weights.data(), weights.size());
-  fill_beside(space, {vectors[0], vectors[1]}, peers);
-  double* to = nullptr;
-  if (load >= 0) {
-    to = make_room(space, load);
-    std::fill_n(to, space.rows(), 0.0);
-  }
-  NodeSums sums;
-  space.inertia->couple({vectors[0], vectors[1], vectors[2]}, weights.data(), to, sums);
-  sums_.insert(sums_.end(), sums.value, sums.value + kCoupleSums);
-}
-
-void RowWorker::add_moments(const Space& space, Take& take) {
-  sums_.resize(sums_.size() + kMomentSums, 0.0);
-  space.inertia->add_moments(at(take.next<int>()), sums_.data() + sums_.size() - kMomentSums);
-}
-
-void RowWorker::subtract(const Space& space, Take& take) {
-  double* y = at(take.next<int>());
-  std::array<double, kMotionNumbers> motion{};
-  take.take_all(motion.data(), motion.size());
-  space.inertia->subtract(motion.data(), y);
 }
 
 void RowWorker::multiply_rows(const Space& space, Take& take) {
@@ -214,6 +177,14 @@ void RowWorker::multiply_rows(const Space& space, Take& take) {
     const Vector y = N * x;
     sums_.insert(sums_.end(), y.data(), y.data() + y.size());
   }
+}
+
+void RowWorker::add_row_loads(const Space& space, Take& take) {
+  const auto& N = space.tables.N;
+  Eigen::Map<Vector> f(at(take.next<int>()), N.cols());
+  Vector weights(N.rows());
+  take.take_all(weights.data(), place(static_cast<int>(weights.size())));
+  f.noalias() += N.transpose() * weights;
 }
 
 void RowWorker::compare(const Space& space, Take& take) {

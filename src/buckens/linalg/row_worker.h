@@ -74,14 +74,14 @@ class RowWorker {
   void multiply_mass(const Space& space, Take& take, RowPeers& peers);
   void multiply(const Space& space, Take& take, RowPeers& peers);
   void couple(const Space& space, Take& take, RowPeers& peers);
-  void add_moments(const Space& space, Take& take);
-  void subtract(const Space& space, Take& take);
+  void add_row_loads(const Space& space, Take& take);
   void multiply_rows(const Space& space, Take& take);
   void compare(const Space& space, Take& take);
   void add_total(const Space& space, Take& take);
   void add_square(const Space& space, Take& take);
   void add_inner_product(const Space& space, Take& take);
   void scale(const Space& space, Take& take);
+  void do_inertia(RowTask task, const Space& space, Take& take, RowPeers& peers);
   void do_pairs(RowTask task, const Space& space, Take& take, RowPeers& peers);
   /// Brings the units beside those here.
   void fill_beside(const Space& space, std::initializer_list<double*> vectors, RowPeers& peers);

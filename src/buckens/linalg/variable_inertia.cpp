@@ -78,18 +78,31 @@ void VariableInertia::couple_by_nodes(const Task& task) const {
   }
 }
 
-void VariableInertia::add_moments(const double* x, double* sums) const {
+void VariableInertia::add_products(const Matrix& columns, const double* x, double* sums) const {
   const Map<const Vector> of(x, variables_);
-  const auto add = [&](const Matrix& columns, double* to) {
-    for (Index k = 0; k < columns.cols(); ++k) to[k] += columns.col(k).dot(of);
-  };
-  add(tables_->P, sums);
-  add(tables_->patterns, sums + kPatternSums);
+  for (Index k = 0; k < columns.cols(); ++k) sums[k] += columns.col(k).dot(of);
+}
+
+void VariableInertia::add_moments(const double* x, double* sums) const {
+  add_products(tables_->P, x, sums);
+  add_products(tables_->patterns, x, sums + kPatternSums);
 }
 
 void VariableInertia::subtract(const double* motion, double* y) const {
   const Matrix& Phi = tables_->Phi;
   Map<Vector>(y, variables_).noalias() -= Phi * Map<const Vector>(motion, Phi.cols());
+}
+
+void VariableInertia::add_resultants(const double* f, double* sums) const {
+  add_products(tables_->Phi, f, sums);
+}
+
+void VariableInertia::subtract_load(const double* motion, double* f) const {
+  const auto subtract_columns = [&](const Matrix& columns, const double* weights) {
+    Map<Vector>(f, variables_).noalias() -= columns * Map<const Vector>(weights, columns.cols());
+  };
+  subtract_columns(tables_->P, motion);
+  subtract_columns(tables_->patterns, motion + kPatternSums);
 }
 
 }  // namespace buckens::linalg

@@ -15,11 +15,14 @@ class VariableInertia final : public RowInertia {
               NodeSums& sums) const override;
   void add_moments(const double* x, double* sums) const override;
   void subtract(const double* motion, double* y) const override;
+  void add_resultants(const double* f, double* sums) const override;
+  void subtract_load(const double* motion, double* f) const override;
 
  private:
   struct Task;
   void couple_by_integrals(const Task& task) const;
   void couple_by_nodes(const Task& task) const;
+  void add_products(const Matrix& columns, const double* x, double* sums) const;
 
   const VariableTables* tables_;
   int variables_;

@@ -150,6 +150,29 @@ TEST_P(RowsOfABody, SubtractsMotionsAndSumsMoments) {
   EXPECT_LE((found.topRows<3>() - moments).norm(), kOfOtherOrder * moments.norm());
 }
 
+TEST_P(RowsOfABody, SubtractsLoadsAndSumsResultants) {
+  const Eigen::Matrix4d T = Eigen::Matrix4d::Random();
+  base::BytesTo put = program(RowTask::combine, 3, false, 1, 1.0, 0, RowTask::subtract_load, 3);
+  put.all(T.data(), kMotionNumbers);
+  put(RowTask::resultants);
+  put(3);
+  const Vector sums = total(run(put));
+  const Eigen::Map<const Eigen::Matrix3Xd> F(d.data(), 3, nodes());
+  const Eigen::Matrix3Xd expected = F - T.topRows<3>() * first_moments;
+  EXPECT_LE((whole(3) - expected.reshaped()).norm(), kOfOtherOrder * expected.norm());
+  const Eigen::Matrix<double, 3, 4> resultants = expected * positions.transpose();
+  const Eigen::Map<const Eigen::Matrix4d> found(sums.data());
+  EXPECT_LE((found.topRows<3>() - resultants).norm(), kOfOtherOrder * resultants.norm());
+}
+
+TEST_P(RowsOfABody, AddsLoadsAlongInterfaceRows) {
+  const Vector weights = Vector::LinSpaced(5, -1.0, 2.0);
+  base::BytesTo put = program(RowTask::combine, 3, false, 1, 1.0, 0, RowTask::add_row_loads, 3);
+  put.all(weights.data(), 5);
+  run(put);
+  EXPECT_LE((whole(3) - d - N.transpose() * weights).norm(), kOfOtherOrder * d.norm());
+}
+
 TEST_P(RowsOfABody, MultipliesByInterfaceRows) {
   const Vector sums = total(run(program(RowTask::row_products, 2, 0, 2)));
   EXPECT_LE((sums.head(5) - N * d).norm(), kOfOtherOrder);

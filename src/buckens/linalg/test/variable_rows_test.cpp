@@ -149,6 +149,22 @@ TEST_P(RowsOfVariables, SubtractMotionsAndSumMoments) {
             kOfOtherSum * kSize);
 }
 
+TEST_P(RowsOfVariables, SubtractLoadsAndSumResultants) {
+  std::array<double, kMotionNumbers> motion{};
+  for (std::size_t k = 0; k < 12; ++k) motion[k] = k == 5 ? 0.0 : 0.3 * static_cast<double>(k) - 1;
+  base::BytesTo put =
+      RowThreads::program(RowTask::combine, 3, false, 1, 1.0, 0, RowTask::subtract_load, 3);
+  put.all(motion.data(), motion.size());
+  put(RowTask::resultants);
+  put(3);
+  const Vector sums = RowThreads::total(threads.run(put));
+  const Vector expected = d - P * Eigen::Map<const Vector>(motion.data(), 5) -
+                          patterns * Eigen::Map<const Vector>(motion.data() + kPatternSums, 6);
+  EXPECT_LE((threads.whole(3) - expected).norm(), kOfOtherSum * expected.norm());
+  EXPECT_LE((sums.head(5) - Phi.transpose() * expected).norm(), kOfOtherSum * kSize);
+  EXPECT_TRUE(sums.tail(kMomentSums - 5).isZero(0.0));
+}
+
 TEST_P(RowsOfVariables, DoNotActByNode) {
   const VariableTables none;
   const VariableInertia inertia(none, 0);
