@@ -162,3 +162,7 @@ BLOW = CUBE.replace("bearing: {face: x0}", "bearing: {face: x0}, struck: {face: 
 initial: {bodies: {shot: {velocity: [-1, 0, 0]}}}
 loads: {hit: {contact: {between: [cube/struck, shot], shapes: [{sphere: 10 mm}, {sphere: 10 mm}], restitution: 0.5}}}
 joints:""").replace("sensors: {", "sensors: {speed: {velocity: shot}, lost: {energy: impacts}, ")
+
+# One that turns so fast that loads of its inertia deform it, as it is softer.
+SPUN = CUBE.replace("E: 210 GPa", "E: 50 MPa").replace(
+    "joints:", "initial: {bodies: {cube: {velocity: [0, 1.5, 0], angular-velocity: [0, 0, 30]}}}\njoints:")

@@ -5,7 +5,7 @@ import json
 
 import pytest
 
-from models_of_many_variables import BLOW, CUBE, SHELL_SIDE, SHELLS, SIDE, TWINS
+from models_of_many_variables import BLOW, CUBE, SHELL_SIDE, SHELLS, SIDE, SPUN, TWINS
 from mpi_runs import expect_same_energies, expect_same_stresses, mpirun, must, several, sets  # noqa: F401
 from test_solver import largest_difference, sensors
 
@@ -33,9 +33,10 @@ def test_vectors_of_a_step_stay_with_the_other_processes(mpirun, tmp_path, count
     """The first process sends what is to be done with them, and receives sums.
 
     Programs take an order, what it says, and sums: for values at the start of a step, the right-hand side, what follows from its solution, the
-    end of the step, and interface values for the account of work. A solve takes an order and tells twice whether a process has failed. A record
-    asks for interface values by two programs, for itself and for the energies, brings displacements, rates and accelerations, and asks for the
-    products of its energies by one order and for its stresses by another.
+    end of the step, and interface values for the account of work. A solve takes an order and tells twice whether a process has failed. What the
+    level of coupling leaves out is found in each tenth step, by two programs. A record asks for interface values by two programs, for itself and
+    for the energies, brings displacements, rates and accelerations, and asks for the products of its energies by one order
+    and for its stresses by another.
     """
     (tmp_path / "cube.yaml").write_text(CUBE)
     change = sets("bodies.cube.coupling=none", "simulation.duration=1 ms", "output.every=1 ms")
@@ -48,10 +49,11 @@ def test_vectors_of_a_step_stay_with_the_other_processes(mpirun, tmp_path, count
     # Of the first process's rows of the factor, from all and back to all.
     through_factor = 2 * others
     record = 2 * program + 3 * (2 * others) + 2 * (3 * others)
+    neglected = 2 * program
     # Displacements and rates are the same zeros at first, and both accelerations are the same.
     start = 2 * (4 * others)
     messages = summary["measures"]["messages_per_step"] * steps
-    assert messages == pytest.approx(steps * (5 * program + solve + through_factor) + record + start, rel=1e-12)
+    assert messages == pytest.approx(steps * (5 * program + solve + through_factor) + record + neglected + start, rel=1e-12)
     if count > 2:  # borders between rows of products are counted twice
         return
     # Three vectors, M and K times one each, and the rows of stresses; and two vectors at first.
@@ -115,6 +117,71 @@ def test_work_of_dampers_and_errors_of_steps_take_no_vectors(buckens, mpirun, tm
         steps.append(summary["steps"])
     # Both runs have the same two records and the same start. Steps alone take five programs and a solve, as above.
     assert (messages[1] - messages[0]) / (steps[1] - steps[0]) < 22 + 3 * programs + 1
+
+
+def of_further_steps(buckens, mpirun, tmp_path, text, *changes, times=("2 ms", "4 ms")):
+    """Of two runs that differ in length but not in their records and their start: what a further solve adds to the numbers that the first process
+    sends and receives, per variable, and what a further step adds to its messages. Results are compared with those of one process.
+    """
+    (tmp_path / "model.yaml").write_text(text)
+    numbers, messages, steps, solves = [], [], [], []
+    for end in times:
+        change = sets(*changes, "simulation.checkpoint=1 h", f"simulation.duration={end}", f"output.every={end}")
+        buckens("run", "model.yaml", "-o", "one", *change).must(0)
+        must(mpirun(2, "run", "model.yaml", "-o", "two", *change))
+        assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < 1e-9
+        expect_same_energies(tmp_path / "two", tmp_path / "one")
+        summary = json.loads((tmp_path / "two" / "summary.json").read_text())
+        body = next(body for body in summary["bodies"].values() if body["dof"] > 100)
+        steps.append(summary["steps"])
+        solves.append(body["solves"])
+        messages.append(summary["measures"]["messages_per_step"] * summary["steps"])
+        numbers.append(summary["measures"]["bytes_per_step"] * summary["steps"] / 8 / body["dof"])
+    return (numbers[1] - numbers[0]) / (solves[1] - solves[0]), (messages[1] - messages[0]) / (steps[1] - steps[0])
+
+
+# Each way what the first process has of the factor, which differs. A vector would add one.
+LEAST, MOST = 2 * 0.25, 2 * 0.75
+
+
+@several
+@pytest.mark.parametrize("text, level, change", [
+    (CUBE, "none", ()),
+    (CUBE, "none", (DAMPED, "simulation.method=newmark")),
+    (SPUN, "first-order", ()),
+    (SHELLS, "none", ()),
+], ids=["none", "by products with K and C", "first order", "shells"])
+def test_levels_of_coupling_are_chosen_by_sums(buckens, mpirun, tmp_path, text, level, change):
+    """Loads that are left out are formed and sieved where the vectors are, by two programs per step. Dampers take one more."""
+    name = "plate" if text is SHELLS else "cube"
+    per_solve, messages = of_further_steps(buckens, mpirun, tmp_path, text, f"bodies.{name}.coupling=auto", *change)
+    one, two = (json.loads((tmp_path / run / "summary.json").read_text())["bodies"][name] for run in ("one", "two"))
+    assert one["coupling"] == two["coupling"] == f"auto: {level}"
+    assert one["largest_neglected_share"] > 0
+    assert two["largest_neglected_share"] == pytest.approx(one["largest_neglected_share"], rel=1e-9)
+    assert LEAST < per_solve < MOST
+    assert messages == pytest.approx(22 + 3 * (2 + (DAMPED in change)), abs=1e-9)
+
+
+@several
+def test_large_deformation_is_noticed_by_sums(buckens, mpirun, tmp_path):
+    """From how many instants coupling is extrapolated depends on what deformation adds to the inertia."""
+    per_solve, _ = of_further_steps(buckens, mpirun, tmp_path, CUBE, "materials.steel.E=20 kPa", "simulation.step=3 ms", times=("60 ms", "90 ms"))
+    assert LEAST < per_solve < MOST
+
+
+@several
+@pytest.mark.parametrize("text, change", [(SPUN, "bodies.cube.coupling=auto"), (SHELLS, "bodies.plate.coupling=auto")], ids=["solids", "shells"])
+def test_sums_of_two_processes_are_added(buckens, mpirun, tmp_path, text, change):
+    """The others are one where there are two."""
+    (tmp_path / "model.yaml").write_text(text)
+    changes = sets(change, "simulation.duration=1 ms", "output.every=0.5 ms")
+    buckens("run", "model.yaml", "-o", "one", *changes).must(0)
+    must(mpirun(3, "run", "model.yaml", "-o", "three", *changes))
+    assert largest_difference(sensors(tmp_path / "three"), sensors(tmp_path / "one")) < 1e-9
+    expect_same_energies(tmp_path / "three", tmp_path / "one")
+    one, three = (next(iter(json.loads((tmp_path / run / "summary.json").read_text())["bodies"].values())) for run in ("one", "three"))
+    assert three["largest_neglected_share"] == pytest.approx(one["largest_neglected_share"], rel=1e-9)
 
 
 def solves_of(directory):

@@ -96,15 +96,19 @@ NodeSums NodalMotion::moments(const Input& x) const {
   return sums;
 }
 
-void NodalMotion::add_pattern_load(const Vector6& weights, InPlace f) const {
+Matrix4d NodalMotion::pattern_motion(const Vector6& weights) {
   Matrix4d T = Matrix4d::Zero();
   for (std::size_t k = 0; k < kPairs.size(); ++k) {
     const auto [a, b] = kPairs[k];
     T(b, a) -= weights[static_cast<Index>(k)];
     if (a != b) T(a, b) -= weights[static_cast<Index>(k)];
   }
-  kernels_->subtract(first_moments_.data(), 0, static_cast<int>(positions_.cols()), T.data(),
-                     f.data());
+  return T;
+}
+
+void NodalMotion::add_pattern_load(const Vector6& weights, InPlace f) const {
+  kernels_->subtract(first_moments_.data(), 0, static_cast<int>(positions_.cols()),
+                     pattern_motion(weights).data(), f.data());
 }
 
 /// Those of the six motions that `places` make. @param places positions or first moments

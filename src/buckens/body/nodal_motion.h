@@ -67,6 +67,8 @@ class NodalMotion {
   /// c_ab·x in the order of the columns patterns().
   static Vector6 patterns(const linalg::NodeSums& sums);
 
+  /// T with Σ weight × c_ab = −T (s_j, m_j) at each node.
+  static Eigen::Matrix4d pattern_motion(const Vector6& weights);
   /// T with Φ_j a = T (X_j, 1), columns of four numbers. @param rigid amplitudes a of the sieve
   Eigen::Matrix4d motion(const Vector6& rigid) const;
   /// y −= Φ a at some variables, whole nodes.

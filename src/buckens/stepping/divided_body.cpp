@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "buckens/body/deformation_coupling.h"
 #include "buckens/linalg/row_order.h"
 #include "buckens/stepping/body_step_operator.h"
 
@@ -97,6 +98,17 @@ DividedVector DividedBody::multiply_damping(RowProgram& program, const DividedVe
   return program.multiply(C_.divide(order_), x);
 }
 
+DividedVector DividedBody::elastic_load(RowProgram& program, const body::FlexiblePart& part,
+                                        const DividedVector& d, const DividedVector& rate) const {
+  DividedVector out = program.multiply(part.fe.K.divide(order_), d);
+  if (part.is_damped()) {
+    const DividedVector of_damping = program.multiply(part.C.divide(order_), rate);
+    const std::pair<double, const DividedVector*> term = {1.0, &of_damping};
+    program.add(out, {&term, 1});
+  }
+  return out;
+}
+
 DividedBody::Vector6 DividedBody::rigid(const Vector& sums) const {
   return nodal_ != nullptr ? nodal_->rigid(node_sums(sums)) : Vector6(sums.head<6>());
 }
@@ -106,15 +118,35 @@ DividedBody::Vector6 DividedBody::patterns(const Vector& sums) const {
                            : Vector6(sums.segment<6>(linalg::kPatternSums));
 }
 
-std::array<double, linalg::kMotionNumbers> DividedBody::motion(
-    const Eigen::Ref<const Eigen::VectorXd>& rigid) const {
-  std::array<double, linalg::kMotionNumbers> out{};
+std::array<DividedBody::Vector6, 2> DividedBody::pattern_values(
+    const linalg::NodalVector& x, const linalg::NodalVector& y) const {
+  RowProgram program(*vectors_);
+  const RowProgram::Sums of_x = program.moments(of(x));
+  const RowProgram::Sums of_y = program.moments(of(y));
+  program.run();
+  return {patterns(program.sum(of_x)), patterns(program.sum(of_y))};
+}
+
+DividedBody::Motion DividedBody::motion(const Eigen::Ref<const Eigen::VectorXd>& rigid) const {
+  Motion out{};
   if (nodal_ != nullptr) {
     Eigen::Map<Eigen::Matrix4d>(out.data()) = nodal_->motion(rigid);
   } else {
     std::copy(rigid.begin(), rigid.end(), out.begin());
   }
   return out;
+}
+
+void DividedBody::add_patterns(RowProgram& program, const DividedVector& load,
+                               const Vector6& weights) const {
+  if (weights.isZero(0.0)) return;
+  Motion out{};
+  if (nodal_ != nullptr) {
+    Eigen::Map<Eigen::Matrix4d>(out.data()) = body::NodalMotion::pattern_motion(weights);
+  } else {
+    Eigen::Map<Vector6>(out.data() + linalg::kPatternSums) = -weights;
+  }
+  program.subtract_load(load, out.data());
 }
 
 void DividedBody::row_values(const BodyStepOperator& op, const model::BodyState& state, Vector& y,
@@ -155,6 +187,14 @@ Vector DividedBody::answer(const Eigen::VectorXd& load, double factor) const {
 linalg::NodeSums node_sums(const Vector& sums) {
   linalg::NodeSums out;
   std::copy(sums.begin(), sums.end(), out.value);
+  return out;
+}
+
+body::DeformedMoments quadratic_moments(const body::CouplingTerms& kept, const Vector& sums) {
+  body::DeformedMoments out;
+  if (kept.quad_ref) out = body::deformed_moments(node_sums(sums));
+  if (!kept.jvar) out.J.setZero();
+  if (!kept.cor_ref) out.J_dot.setZero();
   return out;
 }
 

@@ -46,13 +46,24 @@ class DividedBody {
                                       const linalg::DividedVector& x) const;
   linalg::DividedVector multiply_damping(linalg::RowProgram& program,
                                          const linalg::DividedVector& x) const;
-  /// Amplitudes of rigid motions, as many as there are, from the sums of RowProgram::moments().
+  /// K d + C ḋ of the body.
+  linalg::DividedVector elastic_load(linalg::RowProgram& program, const body::FlexiblePart& part,
+                                     const linalg::DividedVector& d,
+                                     const linalg::DividedVector& rate) const;
+  /// Amplitudes of rigid motions, as many as there are, from the sums of RowProgram::moments(), and
+  /// Φᵀf of loads from those of resultants().
   Vector6 rigid(const linalg::Vector& sums) const;
   /// Values along the patterns, from the same sums.
   Vector6 patterns(const linalg::Vector& sums) const;
-  /// Φ × amplitudes for RowProgram::subtract().
-  std::array<double, linalg::kMotionNumbers> motion(
-      const Eigen::Ref<const Eigen::VectorXd>& rigid) const;
+  /// Those of two vectors, by one program.
+  std::array<Vector6, 2> pattern_values(const linalg::NodalVector& x,
+                                        const linalg::NodalVector& y) const;
+  using Motion = std::array<double, linalg::kMotionNumbers>;
+  /// Φ × amplitudes for RowProgram::subtract(), and P × amplitudes for subtract_load().
+  Motion motion(const Eigen::Ref<const Eigen::VectorXd>& rigid) const;
+  /// Adds Σ weight × pattern to a load.
+  void add_patterns(linalg::RowProgram& program, const linalg::DividedVector& load,
+                    const Vector6& weights) const;
 
   /// factor × G × load, brought here.
   linalg::Vector answer(const Eigen::VectorXd& load, double factor) const;
@@ -75,5 +86,8 @@ class DividedBody {
 
 /// Moments of a whole body from the sums that RowProgram::moments() brings.
 linalg::NodeSums node_sums(const linalg::Vector& sums);
+/// Moments quadratic in d of the terms that are kept, from the sums of RowProgram::couple().
+body::DeformedMoments quadratic_moments(const body::CouplingTerms& kept,
+                                        const linalg::Vector& sums);
 
 }  // namespace buckens::stepping

@@ -78,9 +78,12 @@ int LaggedCoupling::known_instants(const model::BodyState& s, int history) const
   if (undeformed.info() != Eigen::Success) return history;
   if (undeformed.solve(s.coupling.moments.J).trace() < kHardlyDeformed) return history;
   const body::InertiaInvariants& invariants = body_->flexible->invariants;
-  const body::DeformedMoments all = dynamics::frame_moments(
-      *body_, s.terms, s.coupling.moments, invariants.pattern_values(s.d.whole()),
-      invariants.pattern_values(s.d_dot.whole()));
+  const std::array<Vector6, 2> patterns =
+      divided_ != nullptr ? divided_->pattern_values(s.d, s.d_dot)
+                          : std::array<Vector6, 2>{invariants.pattern_values(s.d.whole()),
+                                                   invariants.pattern_values(s.d_dot.whole())};
+  const body::DeformedMoments all =
+      dynamics::frame_moments(*body_, s.terms, s.coupling.moments, patterns[0], patterns[1]);
   const Eigen::LLT<Eigen::Matrix3d> whole(all.J);
   if (whole.info() != Eigen::Success) return history;
   const double share = whole.solve(s.coupling.moments.J).trace();

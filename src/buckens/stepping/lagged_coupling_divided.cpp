@@ -36,7 +36,6 @@ LaggedCoupling::Sizes LaggedCoupling::evaluate_divided(const body::CouplingTerms
                                                        const Vector3d& w, const Vector3d& w_dot,
                                                        bool compares, model::Coupling& out) {
   out.t = 0;
-  out.moments = {};
   out.load = NodalVector();
   const bool has_load = terms.have_load();
   body::DeformationWeights weights;
@@ -61,11 +60,7 @@ LaggedCoupling::Sizes LaggedCoupling::evaluate_divided(const body::CouplingTerms
   }
   program.run();
   if (has_load) out.load = divided_->nodal(load);
-  if (terms.quad_ref) {
-    out.moments = body::deformed_moments(node_sums(program.sum(moments)));
-  }
-  if (!terms.jvar) out.moments.J.setZero();
-  if (!terms.cor_ref) out.moments.J_dot.setZero();
+  out.moments = quadratic_moments(terms, program.sum(moments));
   if (used.empty()) return {};
   const linalg::Vector sums = program.sum(compared);
   return {sums[0], sums[1], program.most(compared, 2)};

@@ -5,6 +5,7 @@
 
 #include "buckens/dynamics/coupling_terms.h"
 #include "buckens/dynamics/frame_equation.h"
+#include "buckens/stepping/neglected_terms_divided.h"
 
 namespace buckens::stepping {
 
@@ -35,11 +36,9 @@ Terms evaluate(const body::Body& body, const model::BodyState& s, const body::Co
   return out;
 }
 
-}  // namespace
-
-double neglected_share(const body::Body& body, const BodyStepOperator& op,
-                       const model::BodyState& state, const body::CouplingTerms& kept,
-                       const Vector* interface_load) {
+NeglectedSizes sizes_here(const body::Body& body, const BodyStepOperator& op,
+                          const model::BodyState& state, const body::CouplingTerms& kept,
+                          const Vector* interface_load) {
   const body::FlexiblePart& part = *body.flexible;
   const Terms all = evaluate(body, state, {});
   const Terms used = evaluate(body, state, kept);
@@ -66,12 +65,24 @@ double neglected_share(const body::Body& body, const BodyStepOperator& op,
     }
     applied = inertia + internal - used.load;
   }
+  return {norm(inertia), norm(internal), norm(applied), norm(all.load - used.load),
+          all.torque - used.torque};
+}
+
+}  // namespace
+
+double neglected_share(const body::Body& body, const BodyStepOperator& op,
+                       const model::BodyState& state, const body::CouplingTerms& kept,
+                       const Vector* interface_load) {
+  const NeglectedSizes sizes =
+      op.divided() != nullptr ? neglected_sizes(body, *op.divided(), state, kept, interface_load)
+                              : sizes_here(body, op, state, kept, interface_load);
   const double root_J = std::sqrt(body.J0.norm());
-  const double whole = norm(inertia) + norm(internal) + norm(applied) +
+  const double whole = sizes.inertia + sizes.internal + sizes.applied +
                        root_J * (state.w_dot.norm() + state.frame.w.squaredNorm());
   // Only turns that the frame can make count.
-  const double torque = (body.rotation_basis.transpose() * (all.torque - used.torque)).norm();
-  const double neglected = norm(all.load - used.load) + (root_J > 0.0 ? torque / root_J : 0.0);
+  const double torque = (body.rotation_basis.transpose() * sizes.torque).norm();
+  const double neglected = sizes.neglected + (root_J > 0.0 ? torque / root_J : 0.0);
   return whole > 0.0 ? neglected / whole : 0.0;
 }
 
