@@ -166,3 +166,13 @@ joints:""").replace("sensors: {", "sensors: {speed: {velocity: shot}, lost: {ene
 # One that turns so fast that loads of its inertia deform it, as it is softer.
 SPUN = CUBE.replace("E: 210 GPa", "E: 50 MPa").replace(
     "joints:", "initial: {bodies: {cube: {velocity: [0, 1.5, 0], angular-velocity: [0, 0, 30]}}}\njoints:")
+
+# A force that readings of sensors drive, one of them sampled in each step, with which accelerations jump.
+FELT = CUBE.replace("simulation:", """\
+signals:
+  felt: {sensor: shake}
+  held: {sensor: {of: force, component: y}}
+  kept: {sample-hold: {input: felt, sample: 0.1 ms}}
+  push: "20 - 0.01*kept + 0.05*held"
+loads: {push: {force: {on: cube/corner_111, value: [0, 1 N, 0], signal: push}}}
+simulation:""").replace("sensors: {", "sensors: {shake: {acceleration: {of: cube/corner_011, along: [0, 1, 0]}}, push: {signal: push}, ")

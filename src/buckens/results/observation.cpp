@@ -37,22 +37,24 @@ dynamics::Circumstances circumstances_of(const Observation& now) {
   return out;
 }
 
-MarkerObservation observe_marker(const Observation& now, const model::MarkerId& id) {
+Vector3d marker_acceleration(const Observation& now, const model::MarkerId& id) {
+  if (id.body == model::kGround) return Vector3d::Zero();
   const auto kinematics = dynamics::evaluate_marker(now.model, id, now.motions);
-  MarkerObservation out;
-  out.motion = kinematics.motion;
-  if (id.body == model::kGround) return out;
   const auto b = static_cast<std::size_t>(id.body);
   const model::BodyState& s = now.state.bodies[b];
   const body::Body& body = now.model.bodies[b];
   const body::Marker& marker = body.markers[static_cast<std::size_t>(id.marker)];
   Vector3d relative = Vector3d::Zero();
   if (marker.follows_mesh()) {
-    relative = body.flexible->rows.middleRows(marker.translation_row, 3) * s.d_ddot.whole();
+    const std::vector<linalg::Vector> there = linalg::NodalVector::row_products({&s.d_ddot});
+    if (there.empty()) {
+      relative = body.flexible->rows.middleRows(marker.translation_row, 3) * s.d_ddot.whole();
+    } else {
+      relative = there[0].segment<3>(marker.translation_row);
+    }
   }
   const Vector3d bias = dynamics::evaluate_bias(now.model, id, now.motions).a;
-  out.acceleration = s.v_dot + kinematics.R_WB * (s.w_dot.cross(kinematics.z) + relative) + bias;
-  return out;
+  return s.v_dot + kinematics.R_WB * (s.w_dot.cross(kinematics.z) + relative) + bias;
 }
 
 }  // namespace buckens::results

@@ -21,6 +21,16 @@ struct WorkBalance {
   linalg::Vector parts = {};
 };
 
+/// Parts of an observation that need all numbers of nodes.
+struct ObservedParts {
+  bool fields = false;    ///< nodal variables, section forces and stresses
+  bool energies = false;  ///< and the balance of work
+
+  ObservedParts operator|(const ObservedParts& other) const {
+    return {fields || other.fields, energies || other.energies};
+  }
+};
+
 /// Everything from which sensors and channels are computed at one instant.
 struct Observation {
   const model::Model& model;
@@ -50,11 +60,7 @@ std::vector<spatial::Wrench> joint_wrenches(const model::Model& model,
                                             double t, const model::RowMemory& memory,
                                             const linalg::Vector& lambda);
 
-/// Motion of a marker with its acceleration.
-struct MarkerObservation {
-  spatial::MarkerMotion motion;
-  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  ///< of the origin, world [m/s²]
-};
-MarkerObservation observe_marker(const Observation& now, const model::MarkerId& id);
+/// Acceleration of a marker's origin, in world axes [m/s²].
+Eigen::Vector3d marker_acceleration(const Observation& now, const model::MarkerId& id);
 
 }  // namespace buckens::results

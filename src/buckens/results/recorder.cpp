@@ -191,8 +191,8 @@ void Recorder::append_joints_and_loads(const Observation& now, std::vector<doubl
   }
 }
 
-Observation Recorder::observe(const model::State& state, WorkBalance work,
-                              const std::optional<dynamics::Energy>& energy) {
+/// Without fields and energies.
+Observation Recorder::observe(const model::State& state, const WorkBalance& work) {
   const model::Model& model = built_.model;
   Observation now{
       model,        state, dynamics::motions_of(model, state), {}, {}, {}, {}, {}, {}, work, {},
@@ -214,21 +214,28 @@ Observation Recorder::observe(const model::State& state, WorkBalance work,
   }
   now.joint_wrenches = joint_wrenches(model, now.motions, state.t, state.memory, lambda);
   multipliers_ = std::move(lambda);
+  return now;
+}
+
+void Recorder::add_fields(Observation& now) const {
+  const model::Model& model = built_.model;
   now.nodal.resize(model.bodies.size());
   now.section_forces.resize(model.bodies.size());
   now.stresses.resize(model.bodies.size());
   now.solid_stresses.resize(model.bodies.size());
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     if (!recoveries_[b]) continue;
-    now.nodal[b] = model.bodies[b].flexible->nodal(state.bodies[b].d);
+    now.nodal[b] = model.bodies[b].flexible->nodal(now.state.bodies[b].d);
     now.section_forces[b] = recoveries_[b]->section_forces(now.nodal[b]);
     now.stresses[b] = recoveries_[b]->stresses(now.section_forces[b]);
     if (solids_[b]) now.solid_stresses[b] = solids_[b]->stresses(now.nodal[b]);
   }
-  now.energy = energy ? *energy : dynamics::energy(model, state);
+}
+
+void Recorder::add_energies(const std::optional<dynamics::Energy>& energy, Observation& now) {
+  now.energy = energy ? *energy : dynamics::energy(now.model, now.state);
   if (!started_) first_energy_ = now.energy.total();
   now.work.balance = now.energy.total() - first_energy_ - now.work.external + now.work.dissipated;
-  return now;
 }
 
 void Recorder::start(const Observation& now) {
@@ -238,7 +245,12 @@ void Recorder::start(const Observation& now) {
 
 std::vector<double> Recorder::read(const model::State& state, const WorkBalance& work,
                                    const std::vector<SensorValue>& values) {
-  const Observation now = observe(state, work, {});
+  ObservedParts parts;
+  for (const SensorValue& value : values) parts = parts | sensors_[value.sensor]->reads();
+  Observation now = observe(state, work);
+  if (parts.fields) add_fields(now);
+  // The first energy is what balances refer to.
+  if (parts.energies || !started_) add_energies({}, now);
   start(now);
   std::vector<double> out, of_one;
   for (const SensorValue& value : values) {
@@ -255,7 +267,9 @@ std::size_t Recorder::find_component(std::size_t sensor, const model::Signal& si
 
 Record Recorder::record(const model::State& state, WorkBalance work,
                         const std::optional<dynamics::Energy>& energy) {
-  const Observation now = observe(state, work, energy);
+  Observation now = observe(state, work);
+  add_fields(now);
+  add_energies(energy, now);
   Record record{state.t, {}};
   record.values.reserve(layout_.num_values());
   append_bodies(now, record.values);

@@ -40,7 +40,8 @@ class Recorder {
     std::size_t place = 0;   ///< among its values
   };
   /// Some values of sensors without the rest of a record. The first call sets the references of
-  /// sensors, as that of record() does.
+  /// sensors, as that of record() does. Cost: products with M and K only for sensors of energies,
+  /// and those with the recovery rows only for sensors of stresses and section forces.
   std::vector<double> read(const model::State& state, const WorkBalance& work,
                            const std::vector<SensorValue>& values);
   /// Place of the value that a signal reads among those of a sensor.
@@ -61,8 +62,9 @@ class Recorder {
   void visit_saved(const base::SaveVisit& visit);
 
  private:
-  Observation observe(const model::State& state, WorkBalance work,
-                      const std::optional<dynamics::Energy>& energy);
+  Observation observe(const model::State& state, const WorkBalance& work);
+  void add_fields(Observation& now) const;
+  void add_energies(const std::optional<dynamics::Energy>& energy, Observation& now);
   void start(const Observation& now);
   void add_channels();
   void add_body_and_joint_channels();

@@ -73,9 +73,9 @@ class MarkerSensor final : public Sensor {
         along_(std::move(along)) {}
 
   std::vector<Channel> channels() const override { return {channel_}; }
-  void start(const Observation& now) override { start_ = observe_marker(now, of_).motion; }
+  void start(const Observation& now) override { start_ = motion(now); }
   void append(const Observation& now, std::vector<double>& values) override {
-    const Vector3d components = axes_.components(now, value(now, observe_marker(now, of_)));
+    const Vector3d components = axes_.components(now, value(now));
     if (along_) return values.push_back(along_->dot(components));
     push(components, values);
   }
@@ -87,21 +87,24 @@ class MarkerSensor final : public Sensor {
   }
 
  private:
-  Vector3d value(const Observation& now, const MarkerObservation& marker) const {
+  spatial::MarkerMotion motion(const Observation& now) const {
+    return dynamics::evaluate_marker(now.model, of_, now.motions).motion;
+  }
+  Vector3d value(const Observation& now) const {
     switch (quantity_) {
       case MarkerQuantity::position:
-        return now.model.origin + marker.motion.p;
+        return now.model.origin + motion(now).p;
       case MarkerQuantity::displacement:
-        return marker.motion.p - start_.p;
+        return motion(now).p - start_.p;
       case MarkerQuantity::velocity:
-        return marker.motion.v;
+        return motion(now).v;
       case MarkerQuantity::acceleration:
-        return marker.acceleration;
+        return marker_acceleration(now, of_);
       case MarkerQuantity::rotation:
         return spatial::log_rotation(
-            Eigen::Quaterniond(Matrix3d(marker.motion.R * start_.R.transpose())));
+            Eigen::Quaterniond(Matrix3d(motion(now).R * start_.R.transpose())));
       default:
-        return marker.motion.w;
+        return motion(now).w;
     }
   }
 
@@ -234,6 +237,7 @@ class SectionForceSensor final : public Sensor {
              "section moments in element axes",
              {"Mt", "My", "Mz"}}};
   }
+  ObservedParts reads() const override { return {true, false}; }
   void append(const Observation& now, std::vector<double>& values) override {
     const auto& forces = now.section_forces[static_cast<std::size_t>(place_.body)];
     for (int k = 0; k < 6; ++k) values.push_back(forces(6 * place_.end + k, place_.element));
@@ -255,6 +259,7 @@ class StressSensor final : public Sensor {
     if (!has_lines_) return {{path, "Pa", {1}, "von Mises stress of solids", {"mises"}}};
     return {{path, "Pa", {2}, "largest axial and von Mises stress", {"axial", "mises"}}};
   }
+  ObservedParts reads() const override { return {true, false}; }
   void append(const Observation& now, std::vector<double>& values) override {
     if (place_.element >= 0) {
       const auto& stresses = now.stresses[static_cast<std::size_t>(place_.body)];

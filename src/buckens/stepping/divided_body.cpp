@@ -171,17 +171,17 @@ void DividedBody::row_values(const BodyStepOperator& op, const model::BodyState&
   }
 }
 
-Vector DividedBody::answer(const Eigen::VectorXd& load, double factor) const {
-  std::vector<std::pair<double, const DividedVector*>> terms;
+linalg::NodalVector DividedBody::plus_answer(const linalg::NodalVector& x,
+                                             const Eigen::VectorXd& load, double factor) const {
+  const DividedVector there = of(x);
+  std::vector<std::pair<double, const DividedVector*>> terms = {{1.0, &there}};
   for (Eigen::Index k = 0; k < load.size(); ++k) {
     terms.emplace_back(factor * load[k], &G_[static_cast<std::size_t>(k)]);
   }
   RowProgram program(*vectors_);
   const DividedVector sum = program.combine(terms);
   program.run();
-  Vector out;
-  vectors_->take(sum, out);
-  return out;
+  return nodal(sum);
 }
 
 linalg::NodeSums node_sums(const Vector& sums) {

@@ -65,8 +65,9 @@ class DividedBody {
   void add_patterns(linalg::RowProgram& program, const linalg::DividedVector& load,
                     const Vector6& weights) const;
 
-  /// factor × G × load, brought here.
-  linalg::Vector answer(const Eigen::VectorXd& load, double factor) const;
+  /// x + factor × G × load.
+  linalg::NodalVector plus_answer(const linalg::NodalVector& x, const Eigen::VectorXd& load,
+                                  double factor) const;
   /// Values along the rows of N, and of the patterns if the state uses them.
   void row_values(const BodyStepOperator& op, const model::BodyState& state, linalg::Vector& y,
                   linalg::Vector& y_dot, linalg::Vector& y_ddot, linalg::Vector& y_alg) const;

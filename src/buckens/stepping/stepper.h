@@ -98,7 +98,8 @@ class Stepper {
   /// bodies whose mesh does not move by itself.
   linalg::Matrix impulse_compliance(std::size_t body) const;
   /// Adds the same for all nodal rates.
-  void add_impulse(std::size_t body, const linalg::Vector& impulse, linalg::Vector& rates) const;
+  void add_impulse(std::size_t body, const linalg::Vector& impulse,
+                   linalg::NodalVector& rates) const;
   /// For algorithmic accelerations of meshes that equal the true ones, as after these have been
   /// computed afresh: removes what the step does not resolve, if the method damps, (I9). One solve
   /// per mesh.

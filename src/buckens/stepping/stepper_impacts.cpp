@@ -69,8 +69,8 @@ void Stepper::add_jump(std::size_t b, const BodyJump& jump, dynamics::BodyMotion
   s.frame.X_WB.q = (s.frame.X_WB.q * undone * spatial::exp_rotation(turned)).normalized();
   motion.frame = s.frame;
   if (!flexible_[b] || operators_[b]->is_quasi_static()) return;
-  add_impulse(b, jump.impulse, s.d_dot.change());
-  add_impulse(b, jump.impulse_time, s.d.change());
+  add_impulse(b, jump.impulse, s.d_dot);
+  add_impulse(b, jump.impulse_time, s.d);
   const InterfaceRows& N = operators_[b]->interface_rows();
   motion.y.head(jump.impulse.size()) = N.topRows(jump.impulse.size()) * s.d.whole();
   motion.y_dot.head(jump.impulse.size()) = N.topRows(jump.impulse.size()) * s.d_dot.whole();
@@ -121,15 +121,16 @@ linalg::Matrix Stepper::impulse_compliance(std::size_t body) const {
   return Impacts::impulse_compliance(scheme_, operators_[body].get());
 }
 
-void Stepper::add_impulse(std::size_t body, const Vector& impulse, Vector& rates) const {
+void Stepper::add_impulse(std::size_t body, const Vector& impulse,
+                          linalg::NodalVector& rates) const {
   // c G f answers a load f; an impulse is answered by k₀ G.
   const BodyStepOperator& op = *operators_[body];
   Vector load = Vector::Zero(op.num_rows());
   load.head(impulse.size()) = scheme_.acceleration_rate * impulse;
   if (op.divided() == nullptr) {
-    op.add_answer(load, 0, rates);
+    op.add_answer(load, 0, rates.change());
   } else if (!impulse.isZero(0.0)) {
-    rates += op.divided()->answer(load, scheme_.force);
+    rates = op.divided()->plus_answer(rates, load, scheme_.force);
   }
 }
 

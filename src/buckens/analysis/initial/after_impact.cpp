@@ -47,7 +47,7 @@ void close_rates(const model::Model& model, const std::vector<int>& rows_in_use,
     model::BodyState& s = state.bodies[b];
     s.frame.w += change.frame.head<3>();
     s.frame.v += change.frame.tail<3>();
-    if (change.mesh != nullptr) meshes->add_impulse(b, *change.mesh, s.d_dot.change());
+    if (change.mesh != nullptr) meshes->add_impulse(b, *change.mesh, s.d_dot);
   });
 }
 
@@ -67,7 +67,7 @@ void close_gaps(const model::Model& model, const std::vector<int>& rows_in_use,
       s.frame.X_WB.p += change.frame.tail<3>();
       s.frame.X_WB.q =
           (s.frame.X_WB.q * spatial::exp_rotation(change.frame.head<3>())).normalized();
-      if (change.mesh != nullptr) meshes->add_impulse(b, *change.mesh, s.d.change());
+      if (change.mesh != nullptr) meshes->add_impulse(b, *change.mesh, s.d);
     });
   }
 }

@@ -42,7 +42,7 @@ void ForceJump::pass(const stepping::Stepper& stepper, model::State& state) {
     for (Eigen::Vector3d* v_dot : {&s.v_dot, &s.v_alg}) *v_dot += change.frame.tail<3>();
     if (change.mesh == nullptr) return;
     for (linalg::NodalVector* d_ddot : {&s.d_ddot, &s.d_alg}) {
-      stepper.add_impulse(b, *change.mesh, d_ddot->change());
+      stepper.add_impulse(b, *change.mesh, *d_ddot);
     }
   });
 }

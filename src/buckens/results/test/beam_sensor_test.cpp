@@ -204,6 +204,38 @@ TEST(BeamSensors, LargestStressIsThatOfTheWorstElement) {
   EXPECT_NEAR(run.sensor("any_stress")[0], kE * 1e-4, 1e-10 * kE * 1e-4);
 }
 
+/// Sensors of all that a recorder forms only where it is read.
+Described read_in_any_order() {
+  Described m = sections();
+  m.sensor_of<model::AccelerationSensor>("shaken", "rod/end");
+  m.sensor<model::EnergySensor>("strain").kind = model::EnergyKind::strain;
+  m.sensor<model::EnergySensor>("balance").kind = model::EnergyKind::balance;
+  return m;
+}
+
+TEST(BeamSensors, AreReadAsTheyAreRecorded) {
+  const auto deform = [](Recorded& run, double factor) {
+    const linalg::Vector bent = linalg::Vector::LinSpaced(run.body().d.size(), -1e-3, 2e-3);
+    run.body().d = factor * bent;
+    run.body().d_ddot = -50.0 * factor * bent;
+  };
+  Recorded whole(read_in_any_order()), alone(read_in_any_order());
+  deform(whole, 1.0);
+  whole.record();
+  // Balances count from the first reading, of whatever sensor.
+  deform(alone, 1.0);
+  (void)alone.recorder.read(alone.state, {}, {{0, 0}});
+  for (Recorded* run : {&whole, &alone}) deform(*run, 2.0);
+  whole.record();
+  const std::vector<std::string> values = {"mid.force", "third.force", "mid_stress", "any_stress",
+                                           "shaken",    "strain",      "balance"};
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const double recorded = whole.sensor(values[k])[0];
+    EXPECT_NE(recorded, 0.0) << values[k];
+    EXPECT_EQ(alone.recorder.read(alone.state, {}, {{k, 0}})[0], recorded) << values[k];
+  }
+}
+
 TEST(BeamSensors, SectionForcesNeedASection) {
   Described m = beam();
   m.sensor_of<model::SectionForceSensor>("whole", "rod");
