@@ -176,3 +176,12 @@ signals:
   push: "20 - 0.01*kept + 0.05*held"
 loads: {push: {force: {on: cube/corner_111, value: [0, 1 N, 0], signal: push}}}
 simulation:""").replace("sensors: {", "sensors: {shake: {acceleration: {of: cube/corner_011, along: [0, 1, 0]}}, push: {signal: push}, ")
+
+# Two shafts with bearings in the cube, which a cross connects.
+SHAFTS = CUBE.replace("bearing: {face: x0}", "bearing: {face: x0}, near: {face: y0}, far: {face: y1}").replace("joints: {", """\
+  input: {rigid: {mass: 0.5 kg, inertia: [1e-4, 2e-4, 1e-4]}, at: {position: [0.05, -0.05, 0]}, markers: {end: {position: [0, 0.1, 0]}}}
+  output: {rigid: {mass: 0.5 kg, inertia: [1e-4, 2e-4, 1e-4]}, at: {position: [0.05, 0.05, 0]}}
+initial: {joints: {first: {speed: 50}}}
+joints: {first: {revolute: {between: [cube/near, input], axis: [0, 1, 0]}},
+  second: {cylindrical: {between: [cube/far, output], axis: [0, 0.96, 0.28]}},
+  cross: {universal: {between: [input/end, output], axis: [1, 0, 0], second-axis: [0, -0.28, 0.96]}}, """)

@@ -5,7 +5,7 @@ import json
 
 import pytest
 
-from models_of_many_variables import BLOW, CUBE, FELT, SHELL_SIDE, SHELLS, SIDE, SPUN, TWINS
+from models_of_many_variables import BLOW, CUBE, FELT, SHAFTS, SHELL_SIDE, SHELLS, SIDE, SPUN, TWINS
 from mpi_runs import expect_same_energies, expect_same_stresses, mpirun, must, several, sets  # noqa: F401
 from test_solver import largest_difference, sensors
 
@@ -172,6 +172,12 @@ def test_signals_of_sensors_take_no_vectors(buckens, mpirun, tmp_path):
 
 
 @several
+def test_shafts_of_crosses_take_no_vectors(buckens, mpirun, tmp_path):
+    per_solve, _ = of_further_steps(buckens, mpirun, tmp_path, SHAFTS, "bodies.cube.coupling=none")
+    assert LEAST < per_solve < MOST
+
+
+@several
 def test_large_deformation_is_noticed_by_sums(buckens, mpirun, tmp_path):
     """From how many instants coupling is extrapolated depends on what deformation adds to the inertia."""
     per_solve, _ = of_further_steps(buckens, mpirun, tmp_path, CUBE, "materials.steel.E=20 kPa", "simulation.step=3 ms", times=("60 ms", "90 ms"))
@@ -179,8 +185,8 @@ def test_large_deformation_is_noticed_by_sums(buckens, mpirun, tmp_path):
 
 
 @several
-@pytest.mark.parametrize("text, change", [(SPUN, "bodies.cube.coupling=auto"), (SHELLS, "bodies.plate.coupling=auto"), (FELT, "bodies.cube.coupling=full")],
-                         ids=["solids", "shells", "signals"])
+@pytest.mark.parametrize("text, change", [(SPUN, "bodies.cube.coupling=auto"), (SHELLS, "bodies.plate.coupling=auto"), (FELT, "bodies.cube.coupling=full"),
+                                          (SHAFTS, "bodies.cube.coupling=full")], ids=["solids", "shells", "signals", "shafts"])
 def test_sums_of_two_processes_are_added(buckens, mpirun, tmp_path, text, change):
     """The others are one where there are two."""
     (tmp_path / "model.yaml").write_text(text)

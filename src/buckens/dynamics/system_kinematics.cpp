@@ -75,22 +75,25 @@ SystemRow system_row(const model::Model& model, const model::MarkerId& first,
           {}};
 }
 
+void motion_of(const body::Body& body, const model::BodyState& s, BodyMotion& out) {
+  out.frame = s.frame;
+  if (!body.is_flexible()) return;
+  const std::vector<linalg::Vector> there = linalg::NodalVector::row_products({&s.d, &s.d_dot});
+  if (!there.empty()) {
+    out.y = there[0];
+    out.y_dot = there[1];
+    return;
+  }
+  const auto& rows = body.flexible->rows;
+  out.y.noalias() = rows * s.d.whole();
+  out.y_dot.noalias() = rows * s.d_dot.whole();
+}
+
 void motions_of(const model::Model& model, const model::State& state,
                 std::vector<BodyMotion>& out) {
   out.resize(model.bodies.size());
   for (std::size_t k = 0; k < out.size(); ++k) {
-    const model::BodyState& s = state.bodies[k];
-    out[k].frame = s.frame;
-    if (!model.bodies[k].is_flexible()) continue;
-    const std::vector<linalg::Vector> there = linalg::NodalVector::row_products({&s.d, &s.d_dot});
-    if (!there.empty()) {
-      out[k].y = there[0];
-      out[k].y_dot = there[1];
-      continue;
-    }
-    const auto& rows = model.bodies[k].flexible->rows;
-    out[k].y.noalias() = rows * s.d.whole();
-    out[k].y_dot.noalias() = rows * s.d_dot.whole();
+    motion_of(model.bodies[k], state.bodies[k], out[k]);
   }
 }
 

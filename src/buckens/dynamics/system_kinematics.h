@@ -85,6 +85,8 @@ SystemRow system_row(const model::Model& model, const model::MarkerId& first,
                      const body::MarkerKinematics& first_kinematics, const model::MarkerId& second,
                      const body::MarkerKinematics& second_kinematics, const spatial::PairRow& J);
 
+/// Motion of one body; its marker rows by sums where other processes have its vectors.
+void motion_of(const body::Body& body, const model::BodyState& state, BodyMotion& out);
 /// Motions of all bodies at a state.
 std::vector<BodyMotion> motions_of(const model::Model& model, const model::State& state);
 /// The same into room that is kept, so that steps allocate nothing.

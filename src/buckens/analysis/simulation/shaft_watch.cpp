@@ -37,9 +37,7 @@ ShaftWatch::ShaftWatch(const model::Model& model)
 void ShaftWatch::follow(int body, const model::State& state) {
   if (body == model::kGround) return;
   const auto b = static_cast<std::size_t>(body);
-  motions_[b].frame = state.bodies[b].frame;
-  motions_[b].y = model_.bodies[b].row_values(state.bodies[b].d);
-  motions_[b].y_dot = model_.bodies[b].row_values(state.bodies[b].d_dot);
+  dynamics::motion_of(model_.bodies[b], state.bodies[b], motions_[b]);
 }
 
 double ShaftWatch::cosine(const model::ShaftPair& pair, const model::State& state) {
