@@ -173,9 +173,11 @@ signals:
   felt: {sensor: shake}
   held: {sensor: {of: force, component: y}}
   kept: {sample-hold: {input: felt, sample: 0.1 ms}}
-  push: "20 - 0.01*kept + 0.05*held"
+  whole: {sensor: all}
+  push: "20 - 0.01*kept + 0.05*held + 1e3*whole"
 loads: {push: {force: {on: cube/corner_111, value: [0, 1 N, 0], signal: push}}}
-simulation:""").replace("sensors: {", "sensors: {shake: {acceleration: {of: cube/corner_011, along: [0, 1, 0]}}, push: {signal: push}, ")
+simulation:""").replace(
+    "sensors: {", "sensors: {shake: {acceleration: {of: cube/corner_011, along: [0, 1, 0]}}, push: {signal: push}, all: {energy: kinetic}, ")
 
 # Two shafts with bearings in the cube, which a cross connects.
 SHAFTS = CUBE.replace("bearing: {face: x0}", "bearing: {face: x0}, near: {face: y0}, far: {face: y1}").replace("joints: {", """\

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/dynamics/energy.h"
 
+#include "buckens/dynamics/energy_divided.h"
 #include "buckens/dynamics/forces.h"
 
 namespace buckens::dynamics {
@@ -14,11 +15,10 @@ namespace {
 body::DeformedMoments inertia(const body::Body& body, const model::BodyState& state) {
   body::DeformedMoments out;
   out.J = body.J0;
-  body::CouplingTerms inertial = state.terms;
-  inertial.stiffening = false;  // a load, no inertia
-  if (!body.is_flexible() || inertial == body::CouplingTerms::none()) return out;
+  const KineticTerms terms = kinetic_terms(state.terms);
+  if (!body.is_flexible() || terms == KineticTerms::none) return out;
   const auto& invariants = body.flexible->invariants;
-  if (inertial == body::CouplingTerms::first_order()) {
+  if (terms == KineticTerms::first_order) {
     out.J += invariants.linear_inertia(invariants.pattern_values(state.d.whole()));
     return out;
   }
@@ -27,14 +27,14 @@ body::DeformedMoments inertia(const body::Body& body, const model::BodyState& st
   return out;
 }
 
-/// What deformation has of its own.
-struct OfDeformation {
-  double kinetic = 0, strain = 0;
-};
-
 /// Its products with M and K are asked for together: other processes may have the matrices.
-OfDeformation energy_of_deformation(const body::Body& body, const model::BodyState& s) {
-  OfDeformation out;
+DeformationEnergy energy_of_deformation(const body::Body& body, const model::BodyState& s) {
+  if (body.is_flexible()) {
+    const auto of = s.d.others();
+    if (of && of == s.d_dot.others()) return deformation_energy(body, s, of);
+  }
+  DeformationEnergy out;
+  out.moments = inertia(body, s);
   if (!body.is_flexible()) return out;
   const body::FlexiblePart& part = *body.flexible;
   linalg::Vector momenta, forces;
@@ -51,10 +51,10 @@ OfDeformation energy_of_deformation(const body::Body& body, const model::BodySta
 }
 
 double kinetic_energy(const body::Body& body, const model::BodyState& state,
-                      const OfDeformation& deformation) {
+                      const DeformationEnergy& deformation) {
   const Vector3d& w = state.frame.w;
   double T = 0.5 * body.mass * state.frame.v.squaredNorm();
-  const body::DeformedMoments moments = inertia(body, state);
+  const body::DeformedMoments& moments = deformation.moments;
   T += 0.5 * w.dot(moments.J * w) + w.dot(moments.l);
   if (body.is_flexible()) T += deformation.kinetic;
   return T;
@@ -68,7 +68,7 @@ Energy energy(const model::Model& model, const model::State& state) {
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const body::Body& body = model.bodies[b];
     const model::BodyState& s = state.bodies[b];
-    const OfDeformation deformation = energy_of_deformation(body, s);
+    const DeformationEnergy deformation = energy_of_deformation(body, s);
     out.kinetic += kinetic_energy(body, s, deformation);
     out.gravity -= body.mass * gravity.dot(s.frame.X_WB.p);
     out.strain += deformation.strain;

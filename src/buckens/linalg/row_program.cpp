@@ -220,6 +220,12 @@ Vector RowProgram::sum(const Sums& of) const {
   return out;
 }
 
+NodeSums node_sums(const Vector& sums) {
+  NodeSums out;
+  std::copy(sums.begin(), sums.end(), out.value);
+  return out;
+}
+
 double RowProgram::most(const Sums& of, std::size_t index) const {
   double out = 0;
   for (std::size_t at = of.first + index; at < replies_.size(); at += expected_) {

@@ -107,4 +107,8 @@ class RowProgram {
   std::vector<double> replies_;  // process after process
 };
 
+/// Of a whole body whose inertia acts node by node, from the sums of moments() or resultants(), and
+/// of any body from those of couple().
+NodeSums node_sums(const Vector& sums);
+
 }  // namespace buckens::linalg

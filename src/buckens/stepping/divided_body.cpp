@@ -110,11 +110,11 @@ DividedVector DividedBody::elastic_load(RowProgram& program, const body::Flexibl
 }
 
 DividedBody::Vector6 DividedBody::rigid(const Vector& sums) const {
-  return nodal_ != nullptr ? nodal_->rigid(node_sums(sums)) : Vector6(sums.head<6>());
+  return nodal_ != nullptr ? nodal_->rigid(linalg::node_sums(sums)) : Vector6(sums.head<6>());
 }
 
 DividedBody::Vector6 DividedBody::patterns(const Vector& sums) const {
-  return nodal_ != nullptr ? body::NodalMotion::patterns(node_sums(sums))
+  return nodal_ != nullptr ? body::NodalMotion::patterns(linalg::node_sums(sums))
                            : Vector6(sums.segment<6>(linalg::kPatternSums));
 }
 
@@ -184,15 +184,9 @@ linalg::NodalVector DividedBody::plus_answer(const linalg::NodalVector& x,
   return nodal(sum);
 }
 
-linalg::NodeSums node_sums(const Vector& sums) {
-  linalg::NodeSums out;
-  std::copy(sums.begin(), sums.end(), out.value);
-  return out;
-}
-
 body::DeformedMoments quadratic_moments(const body::CouplingTerms& kept, const Vector& sums) {
   body::DeformedMoments out;
-  if (kept.quad_ref) out = body::deformed_moments(node_sums(sums));
+  if (kept.quad_ref) out = body::deformed_moments(linalg::node_sums(sums));
   if (!kept.jvar) out.J.setZero();
   if (!kept.cor_ref) out.J_dot.setZero();
   return out;

@@ -85,8 +85,6 @@ class DividedBody {
   linalg::DividedVector inverse_diagonal_, scale_;
 };
 
-/// Moments of a whole body from the sums that RowProgram::moments() brings.
-linalg::NodeSums node_sums(const linalg::Vector& sums);
 /// Moments quadratic in d of the terms that are kept, from the sums of RowProgram::couple().
 body::DeformedMoments quadratic_moments(const body::CouplingTerms& kept,
                                         const linalg::Vector& sums);
