@@ -265,7 +265,7 @@ std::size_t Recorder::find_component(std::size_t sensor, const model::Signal& si
   return results::find_component(*sensors_[sensor], signal);
 }
 
-Record Recorder::record(const model::State& state, WorkBalance work,
+Record Recorder::record(const model::State& state, const WorkBalance& work,
                         const std::optional<dynamics::Energy>& energy) {
   Observation now = observe(state, work);
   add_fields(now);

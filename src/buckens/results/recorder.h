@@ -29,9 +29,9 @@ class Recorder {
 
   /// The record of a state. The first call sets the reference of sensors (t = 0).
   /// Cost: a product with M, K and the recovery rows per flexible body.
-  /// @param work its balance is filled in here
+  /// @param work its balance is not read, but found here
   /// @param energy instead of that of the state, for states between steps
-  Record record(const model::State& state, WorkBalance work,
+  Record record(const model::State& state, const WorkBalance& work,
                 const std::optional<dynamics::Energy>& energy = {});
 
   /// One value of a sensor.
