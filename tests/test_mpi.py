@@ -344,10 +344,11 @@ def test_inertia_of_solids_is_integrated_by_others(tmp_path):
 
 
 @several
-def test_a_process_without_a_disk_keeps_its_rows(buckens, tmp_path):
-    """Others have M and K on the disk while the factor is computed."""
+@pytest.mark.parametrize("switch", ["ulimit -f 0", "export BUCKENS_MPI_DISK=off"], ids=["no files", "off"])
+def test_a_process_without_a_disk_keeps_its_rows(buckens, tmp_path, switch):
+    """Others have M, K and their part of the factor on the disk while it is computed."""
     (tmp_path / "cube.yaml").write_text(CUBE)
-    limited = "[ $OMPI_COMM_WORLD_RANK = 0 ] || ulimit -f 0; exec \"$@\""
+    limited = f"[ $OMPI_COMM_WORLD_RANK = 0 ] || {switch}; exec \"$@\""
     command = [MPIRUN, "-n", "3", "sh", "-c", limited, "sh", PROGRAM, "run", "cube.yaml", "-o", "three"]
     must(subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=240, check=False, env=ENVIRONMENT,
                         stdin=subprocess.DEVNULL))
@@ -393,6 +394,13 @@ def test_from_how_many_variables_on_bodies_are_shared_is_a_number(mpirun, given)
     result = must(mpirun(2, "run", BLOCKS, environment={"BUCKENS_MPI_VARIABLES": given}, timeout=60), 2)
     told = [line for line in result.stderr.splitlines() if line.startswith("buckens: error")]
     assert len(told) == 1 and f"BUCKENS_MPI_VARIABLES is \"{given}\"" in told[0] and "20000" in told[0], result.stderr
+
+
+@several
+def test_the_disk_is_used_or_not(mpirun):
+    result = must(mpirun(2, "run", BLOCKS, environment={"BUCKENS_MPI_DISK": "no"}, timeout=60), 2)
+    told = [line for line in result.stderr.splitlines() if line.startswith("buckens: error")]
+    assert len(told) == 1 and "BUCKENS_MPI_DISK is \"no\"" in told[0] and "\"on\" or \"off\"" in told[0], result.stderr
 
 
 @several

@@ -82,6 +82,24 @@ int refuse_shared_size(int argc, const char* const* argv, const linalg::StartedP
                   std::numeric_limits<int>::max(), linalg::kWorthSharing));
 }
 
+/// Whether what waits while a factor is computed may be on the disk: plug-ins read it.
+constexpr char kDiskName[] = "BUCKENS_MPI_DISK";
+
+bool is_disk_told_well() {
+  const char* text = std::getenv(kDiskName);
+  const std::string_view given = text != nullptr ? text : "";
+  return given.empty() || given == "on" || given == "off";
+}
+
+int refuse_disk(int argc, const char* const* argv, const linalg::StartedProcesses& started) {
+  if (started.rank > 0) return static_cast<int>(ExitCode::input);
+  return report(argc, argv, ExitCode::input, "input",
+                fmt::format("the environment variable {} is \"{}\", but should be \"on\" or "
+                            "\"off\": whether the factor and matrices may be on the disk while "
+                            "the factor is computed; unset it for \"on\"",
+                            kDiskName, std::getenv(kDiskName)));
+}
+
 /// Time for the processes to find each other. MPI itself waits for ever if one of them never joins.
 constexpr double kSecondsToJoin = 120;
 constexpr char kSecondsName[] = "BUCKENS_MPI_SECONDS";
@@ -167,6 +185,7 @@ int run_together(int argc, const char* const* argv) {
   if (repeats_sweep(argc, argv)) return refuse_sweep(argc, argv, started);
   if (!linalg::missing_grid_solver().empty()) return refuse(argc, argv, started);
   if (!read_shared_size()) return refuse_shared_size(argc, argv, started);
+  if (!is_disk_told_well()) return refuse_disk(argc, argv, started);
   std::optional<JoinLimit> limit(std::in_place, started, asks(argc, argv, "--json"));
   linalg::Ranks ranks;
   limit.reset();

@@ -2,6 +2,7 @@
 #include "plugins/petsc/pages_on_disk.h"
 
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <string>
 #include <thread>
@@ -187,6 +188,15 @@ TEST(PagesOnDisk, AreOrdinaryMemoryWhereTheDiskDoesNotTakeThem) {
   EXPECT_LT(of_files(), before + 0.5 * kMany);
   pages.let_go();
   EXPECT_TRUE(is_as_filled(pages));
+}
+
+TEST(PagesOnDisk, AreOrdinaryMemoryWhereTheDiskIsSwitchedOff) {
+  ::setenv("BUCKENS_MPI_DISK", "off", 1);
+  PagesOnDisk pages;
+  EXPECT_TRUE(pages.set_aside(kMany));
+  EXPECT_FALSE(pages.is_on_disk());
+  EXPECT_LT(nameless_file(), 0);
+  ::unsetenv("BUCKENS_MPI_DISK");
 }
 
 TEST(PagesOnDisk, MayBeNone) {
