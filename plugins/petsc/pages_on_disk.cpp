@@ -95,6 +95,7 @@ void PagesOnDisk::bring_back(std::size_t bytes) {
   const std::size_t end = std::min(bytes_, (bytes + page - 1) / page * page);
   if (data_ == nullptr) return;
   if (is_on_disk_) {
+    let_go();  // those further on, beside what comes first
     for (std::size_t at = 0; at < end; at += kChunk) {
       // Where there is no memory for it, the rest stays pages of the file.
       if (!take_from_disk(at, std::min(kChunk, end - at))) return;
