@@ -231,7 +231,7 @@ bool MumpsFactor::set_aside(double numbers) {
   return true;
 }
 
-/// Fronts that wait grow down from the end of what was set aside, the factor up from its beginning,
+/// Of room in memory. Fronts that wait grow down from its end, the factor up from its beginning,
 /// and the end is what waits no longer: so the less there is, the less of it was ever written to.
 /// MUMPS moves fronts without room elsewhere, but needs it for the one that it works on.
 double MumpsFactor::numbers_at_first() const {
