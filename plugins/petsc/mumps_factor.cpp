@@ -259,7 +259,7 @@ bool MumpsFactor::factorise() {
     if (!room.grow(lacking)) return false;
   }
   // Where the factor ends: KEEP8(31). Its solves need hardly more.
-  room_.bring_back(static_cast<std::size_t>(mumps_.keep8[31 - 1]) * sizeof(double));
+  room_.bring_back(bytes_of(static_cast<double>(mumps_.keep8[31 - 1])));
   return true;
 }
 

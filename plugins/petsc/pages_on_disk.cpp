@@ -72,36 +72,42 @@ bool PagesOnDisk::map(int flags, int file) {
 
 bool PagesOnDisk::set_aside(std::size_t bytes) {
   if (data_ != nullptr) ::munmap(data_, bytes_);
+  close_file();
   data_ = nullptr;
   bytes_ = bytes;
-  is_on_disk_ = false;
+  brought_back_ = 0;
   if (bytes == 0) return true;
-  const int file = nameless_file();
-  if (file >= 0) {
-    // All of it now: pages that find no room later would end the process.
-    const bool has_room = ::fallocate(file, 0, 0, static_cast<off_t>(bytes)) == 0;
-    is_on_disk_ = has_room && map(MAP_SHARED, file);
-    ::close(file);
+  file_ = nameless_file();
+  // All of it now: pages that find no room later would end the process.
+  if (file_ >= 0 && ::fallocate(file_, 0, 0, static_cast<off_t>(bytes)) == 0 &&
+      map(MAP_SHARED, file_)) {
+    return true;
   }
-  return is_on_disk_ || map(MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1);
+  close_file();
+  return map(MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1);
+}
+
+void PagesOnDisk::close_file() {
+  if (file_ >= 0) ::close(file_);
+  file_ = -1;
 }
 
 void PagesOnDisk::let_go() const {
-  if (is_on_disk_) (void)::madvise(data_, bytes_, MADV_DONTNEED);
+  if (file_ < 0) return;
+  (void)::madvise(data_ + brought_back_, bytes_ - brought_back_, MADV_DONTNEED);
 }
 
 void PagesOnDisk::bring_back(std::size_t bytes) {
+  if (data_ == nullptr) return;
   const std::size_t page = page_size();
   const std::size_t end = std::min(bytes_, (bytes + page - 1) / page * page);
-  if (data_ == nullptr) return;
-  if (is_on_disk_) {
-    let_go();  // those further on, beside what comes first
-    for (std::size_t at = 0; at < end; at += kChunk) {
-      // Where there is no memory for it, the rest stays pages of the file.
-      if (!take_from_disk(at, std::min(kChunk, end - at))) return;
-    }
-    is_on_disk_ = false;
+  let_go();  // those further on, beside what comes first
+  while (file_ >= 0 && brought_back_ < end) {
+    const std::size_t size = std::min(kChunk, end - brought_back_);
+    if (!take_from_disk(brought_back_, size)) return;
+    brought_back_ += size;
   }
+  close_file();
   if (end == bytes_) return;
   (void)::mmap(data_ + end, bytes_ - end, PROT_READ | PROT_WRITE,
                MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED, -1, 0);
@@ -112,8 +118,14 @@ bool PagesOnDisk::take_from_disk(std::size_t at, std::size_t bytes) {
   void* found = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (found == MAP_FAILED) return false;
   std::memcpy(found, data_ + at, bytes);
-  (void)::madvise(data_ + at, bytes, MADV_REMOVE);  // of the file
-  return ::mremap(found, bytes, bytes, MREMAP_MAYMOVE | MREMAP_FIXED, data_ + at) != MAP_FAILED;
+  if (::mremap(found, bytes, bytes, MREMAP_MAYMOVE | MREMAP_FIXED, data_ + at) == MAP_FAILED) {
+    (void)::munmap(found, bytes);
+    return false;
+  }
+  // The system need not keep or write them any longer.
+  (void)::fallocate(file_, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, static_cast<off_t>(at),
+                    static_cast<off_t>(bytes));
+  return true;
 }
 
 LettingGo::LettingGo(const PagesOnDisk& pages, std::chrono::milliseconds between,

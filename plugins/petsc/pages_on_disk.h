@@ -22,20 +22,23 @@ class PagesOnDisk {
   bool set_aside(std::size_t bytes);
   char* data() const { return data_; }
   std::size_t bytes() const { return bytes_; }
-  bool is_on_disk() const { return is_on_disk_; }
-  /// Lets all pages leave. Others may read and write them meanwhile.
+  bool is_on_disk() const { return file_ >= 0; }
+  /// Lets all pages of the file leave. Others may read and write them meanwhile.
   void let_go() const;
   /// Brings the first bytes into memory for good, at the same address, and gives back what is
-  /// behind them. Nobody else may use them meanwhile.
+  /// behind them. Where there is no memory, the rest stays in the file. Nobody else may use them
+  /// meanwhile.
   void bring_back(std::size_t bytes);
 
  private:
   bool map(int flags, int file);
   bool take_from_disk(std::size_t at, std::size_t bytes);
+  void close_file();
 
   char* data_ = nullptr;
   std::size_t bytes_ = 0;
-  bool is_on_disk_ = false;
+  int file_ = -1;                 // −1: all is memory
+  std::size_t brought_back_ = 0;  // bytes at the beginning that are no longer the file's
 };
 
 /// Lets pages go again and again while it lives: of something that others read or write once,

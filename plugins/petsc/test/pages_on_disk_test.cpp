@@ -22,15 +22,16 @@ constexpr std::size_t kMany = std::size_t{8} << 20;
 char letter(std::size_t place) { return static_cast<char>('a' + place % 23); }
 
 void fill(const PagesOnDisk& pages) {
-  for (std::size_t k = 0; k < kMany; ++k) pages.data()[k] = letter(k);
+  for (std::size_t k = 0; k < pages.bytes(); ++k) pages.data()[k] = letter(k);
 }
 
-bool is_as_filled(const PagesOnDisk& pages, std::size_t bytes = kMany) {
+bool is_as_filled(const PagesOnDisk& pages, std::size_t bytes) {
   for (std::size_t k = 0; k < bytes; ++k) {
     if (pages.data()[k] != letter(k)) return false;
   }
   return true;
 }
+bool is_as_filled(const PagesOnDisk& pages) { return is_as_filled(pages, pages.bytes()); }
 
 /// Memory of this process that files are mapped to [bytes].
 double of_files() {
@@ -129,9 +130,11 @@ void expect_brought_back(const PagesOnDisk& pages, std::size_t bytes) {
   EXPECT_TRUE(is_as_filled(pages, bytes));
   // What is behind them is given back by whole pages.
   const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-  for (std::size_t k = bytes + page; k < kMany; k += page / 2) ASSERT_EQ(pages.data()[k], 0);
-  pages.data()[kMany - 1] = 'z';
-  EXPECT_EQ(pages.data()[kMany - 1], 'z');
+  for (std::size_t k = bytes + page; k < pages.bytes(); k += page / 2) {
+    ASSERT_EQ(pages.data()[k], 0);
+  }
+  pages.data()[pages.bytes() - 1] = 'z';
+  EXPECT_EQ(pages.data()[pages.bytes() - 1], 'z');
 }
 
 constexpr std::size_t kKept = kMany / 2 + 100;
@@ -140,16 +143,17 @@ TEST(PagesOnDisk, ComeBackForGoodToTheSameAddress) {
   SKIP_WITHOUT_DISK();
   PagesOnDisk pages;
   const double before = of_files();
-  ASSERT_TRUE(pages.set_aside(kMany));
+  // More than come back at a time.
+  ASSERT_TRUE(pages.set_aside(3 * kMany));
   ASSERT_TRUE(pages.is_on_disk());
   const char* const address = pages.data();
   fill(pages);
-  pages.let_go();
-  pages.bring_back(kKept);
+  pages.bring_back(2 * kMany + kKept);
   EXPECT_FALSE(pages.is_on_disk());
   EXPECT_EQ(pages.data(), address);
   EXPECT_LT(of_files(), before + 0.1 * kMany);
-  expect_brought_back(pages, kKept);
+  pages.let_go();
+  expect_brought_back(pages, 2 * kMany + kKept);
 }
 
 TEST(PagesOnDisk, GiveBackWhatIsNotKeptWhereTheyAreMemory) {
