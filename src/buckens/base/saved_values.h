@@ -70,12 +70,12 @@ class SaveVisit {
   void rotation(const std::string& name, Eigen::Quaterniond& q) const;
   /// A vector that must have this size when restored.
   void vector(const std::string& name, Eigen::VectorXd& value, Eigen::Index size) const;
-  /// The same of numbers that exist elsewhere, in single precision. @param make them, to be saved
+  /// The same for a vector that may also be empty.
+  void vector_or_none(const std::string& name, Eigen::VectorXd& value, Eigen::Index size) const;
+  /// A vector in single precision, which its owner makes to be saved, and takes when restored.
   void save_singles(const std::string& name, Eigen::Index size,
                     std::function<Eigen::VectorXf()> make) const;
   Eigen::VectorXf restored_singles(const std::string& name, Eigen::Index size) const;
-  /// The same for a vector that may also be empty.
-  void vector_or_none(const std::string& name, Eigen::VectorXd& value, Eigen::Index size) const;
   void list(const std::string& name, std::vector<double>& values, std::size_t size) const;
   /// The same for a list that may also be empty, or contain NaN for missing values.
   void list_or_none(const std::string& name, std::vector<double>& values, std::size_t size) const;
