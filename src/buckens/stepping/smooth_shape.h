@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "buckens/body/body.h"
+
+namespace buckens::stepping {
+
+/// The sieved nodal values with the least Rayleigh quotient of K and M among displacements that are
+/// polynomials of the position: up to degree 3, along slender bodies up to degree 7.
+///
+/// Cost: a product with M and K for each of 57 polynomials, and a few vectors of memory.
+linalg::Vector smooth_shape(const body::FlexiblePart& part);
+
+}  // namespace buckens::stepping
