@@ -79,7 +79,8 @@ endif()
 file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/plugins/petsc/test/*_test.cpp")
 buckens_test(petsc_test unit buckens_base ${sources}
   "${PROJECT_SOURCE_DIR}/plugins/petsc/arrays_aside.cpp" "${PROJECT_SOURCE_DIR}/plugins/petsc/factor_room.cpp"
-  "${PROJECT_SOURCE_DIR}/plugins/petsc/mesh_share.cpp" "${PROJECT_SOURCE_DIR}/plugins/petsc/nameless_file.cpp"
+  "${PROJECT_SOURCE_DIR}/plugins/petsc/kept_columns.cpp" "${PROJECT_SOURCE_DIR}/plugins/petsc/mesh_share.cpp"
+  "${PROJECT_SOURCE_DIR}/plugins/petsc/nameless_file.cpp"
   "${PROJECT_SOURCE_DIR}/plugins/petsc/pages_on_disk.cpp")
 
 file(GLOB kill_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/kill/*.cpp")

@@ -131,18 +131,19 @@ class Ranks {
                              const BuckensGridDescription* of, BuckensGridFacts& facts);
   bool send_descriptions(const std::vector<int>& first, const BuckensGridDescription& of);
   bool receive_description(std::vector<char>& description);
-  bool make_columns_of(const std::vector<char>& description, Divided& matrix);
+  bool make_columns_of(const std::vector<char>& description, const Divided& matrix, OwnRows& made);
   bool add_up_together(const Order& order, const double* weights, const BuckensGridRows* of,
                        BuckensGridFacts& facts);
   bool keep(const Order& order, const BuckensGridRows* of, std::unique_ptr<Divided> matrix,
-            BuckensGridFacts& facts);
-  void sum_facts(const Divided& matrix, const std::vector<int>& variables, BuckensGridFacts& facts);
+            OwnRows& own, BuckensGridFacts& facts);
+  void sum_facts(const OwnRows& columns, const std::vector<int>& variables,
+                 BuckensGridFacts& facts);
   double inner_product_together(const Order& order, const double* a, const double* b);
   void diagonal_together(const Order& order, double* values);
   void near_diagonal_together(const Order& order, const int* lengths, double* values);
   bool marks_together(const Order& order, unsigned long long* marks);
   bool edges_together(const Order& order, const int* vertex);
-  void exchange_columns(const BuckensGridColumns* all, Divided& matrix);
+  void exchange_columns(const BuckensGridColumns* all, const Divided& matrix, OwnRows& own);
   void exchange_lists(Divided& matrix);
   void multiply_together(const Order& order, const double* const* x, double* const* y);
   void ask_for_products(const std::vector<const Divided*>& matrices, const double* const* x,

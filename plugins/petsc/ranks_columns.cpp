@@ -26,15 +26,16 @@ int Ranks::make_rows(int rows, int columns, const BuckensGridRows& runs,
 bool Ranks::make_columns_together(const Order& order, const BuckensGridRows* rows,
                                   const BuckensGridDescription* of, BuckensGridFacts& facts) {
   std::unique_ptr<Divided> matrix = empty_division(order, rows);
+  OwnRows made;
   bool is_made = false;
   if (of != nullptr) {
     is_made = send_descriptions(matrix->first, *of);
   } else {
     std::vector<char> description;
-    is_made = receive_description(description) && make_columns_of(description, *matrix);
+    is_made = receive_description(description) && make_columns_of(description, *matrix, made);
   }
   if (has_failed_somewhere(!is_made)) return false;
-  const bool is_kept = keep(order, rows, std::move(matrix), facts);
+  const bool is_kept = keep(order, rows, std::move(matrix), made, facts);
   give_memory_back();  // of elements and of what they add
   return is_kept;
 }
@@ -64,7 +65,8 @@ bool Ranks::send_descriptions(const std::vector<int>& first, const BuckensGridDe
   return has_memory;
 }
 
-bool Ranks::make_columns_of(const std::vector<char>& description, Divided& matrix) {
+bool Ranks::make_columns_of(const std::vector<char>& description, const Divided& matrix,
+                            OwnRows& made) {
   std::array<char, 400> error{};
   BuckensGridColumns columns{};
   const int first = matrix.first[rank_];
@@ -77,30 +79,31 @@ bool Ranks::make_columns_of(const std::vector<char>& description, Divided& matri
   }
   const bool has_room = has_memory_for([&] {
     const int entries = columns.starts[end - first];
-    matrix.starts.assign(columns.starts, columns.starts + (end - first) + 1);
-    matrix.rows.assign(columns.rows, columns.rows + entries);
-    matrix.values.assign(columns.values, columns.values + entries);
+    made.starts.assign(columns.starts, columns.starts + (end - first) + 1);
+    made.rows.assign(columns.rows, columns.rows + entries);
+    made.values.assign(columns.values, columns.values + entries);
   });
   (void)maker_.make(nullptr, 0, 0, 0, nullptr, error.data(), static_cast<int>(error.size()));
   return has_room;
 }
 
-void Ranks::sum_facts(const Divided& matrix, const std::vector<int>& variables,
+void Ranks::sum_facts(const OwnRows& columns, const std::vector<int>& variables,
                       BuckensGridFacts& facts) {
   BuckensGridFacts own{};
-  for (int k = 0; k < matrix.count(); ++k) {
+  const int count = static_cast<int>(columns.starts.size()) - 1;
+  for (int k = 0; k < count; ++k) {
     double squares = 0;
-    for (int e = matrix.starts[k]; e < matrix.starts[k + 1]; ++e) {
-      const int times = matrix.rows[e] == k ? 1 : 2;
+    for (int e = columns.starts[k]; e < columns.starts[k + 1]; ++e) {
+      const int times = columns.rows[e] == k ? 1 : 2;
       own.entries += times;
-      squares += times * matrix.values[e] * matrix.values[e];
+      squares += times * columns.values[e] * columns.values[e];
     }
     own.square_norm += squares;
   }
   if (rank_ != 0) {
-    const BuckensGridColumns columns{matrix.starts.data(), matrix.rows.data(),
-                                     matrix.values.data()};
-    maker_.add_content(matrix.count(), &columns, variables.data(), own.content);
+    const BuckensGridColumns entries{columns.starts.data(), columns.rows.data(),
+                                     columns.values.data()};
+    maker_.add_content(count, &entries, variables.data(), own.content);
   }
   std::vector<BuckensGridFacts> all(static_cast<std::size_t>(count_));
   MPI_Gather(&own, sizeof own, MPI_BYTE, all.data(), sizeof own, MPI_BYTE, 0, work_);
@@ -122,13 +125,15 @@ void Ranks::diagonal(int matrix, double* values) {
 
 void Ranks::diagonal_together(const Order& order, double* values) {
   const Divided& matrix = *shared_->matrices.at(order.number);
-  std::vector<double> own(static_cast<std::size_t>(matrix.count()), 0.0);
-  for (int k = 0; k < matrix.count(); ++k) {
-    const int at = matrix.starts[k];  // variables begin with the columns here
-    if (at < matrix.starts[k + 1] && matrix.rows[at] == k) own[k] = matrix.values[at];
+  const int count = matrix.columns.count();
+  std::vector<double> own(static_cast<std::size_t>(count), 0.0);
+  for (int k = 0; k < count; ++k) {
+    const KeptColumns::Column of = matrix.columns.column(k);
+    // Variables begin with the columns here.
+    if (of.size > 0 && of.row(0) == k) own[static_cast<std::size_t>(k)] = of.value(0);
   }
-  MPI_Gatherv(own.data(), matrix.count(), MPI_DOUBLE, values, matrix.counts.data(),
-              matrix.first.data(), MPI_DOUBLE, 0, work_);
+  MPI_Gatherv(own.data(), count, MPI_DOUBLE, values, matrix.counts.data(), matrix.first.data(),
+              MPI_DOUBLE, 0, work_);
   count_messages(count_ - 1, 0);
   traffic_.bytes += sizeof(double) * static_cast<double>(matrix.size);
 }
@@ -143,17 +148,18 @@ void Ranks::near_diagonal(int matrix, const int* lengths, double* values) {
 
 void Ranks::near_diagonal_together(const Order& order, const int* lengths, double* values) {
   const Divided& matrix = *shared_->matrices.at(order.number);
-  const int columns = matrix.count();
+  const int columns = matrix.columns.count();
   std::vector<int> own(static_cast<std::size_t>(columns));
   MPI_Scatterv(lengths, matrix.counts.data(), matrix.first.data(), MPI_INT, own.data(), columns,
                MPI_INT, 0, work_);
   std::vector<double> found(std::accumulate(own.begin(), own.end(), std::size_t{0}), 0.0);
   double* of_column = found.data();
   for (int k = 0; k < columns; ++k) {
-    for (int e = matrix.starts[k]; e < matrix.starts[k + 1]; ++e) {
-      const int below = matrix.variables[matrix.rows[e]] - matrix.variables[k];
+    const KeptColumns::Column of = matrix.columns.column(k);
+    for (int e = 0; e < of.size; ++e) {
+      const int below = matrix.variables[of.row(e)] - matrix.variables[k];
       if (below >= own[k]) break;
-      of_column[below] = matrix.values[e];
+      of_column[below] = of.value(e);
     }
     of_column += own[k];
   }

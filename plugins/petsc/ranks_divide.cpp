@@ -118,7 +118,6 @@ std::unique_ptr<Ranks::Divided> Ranks::empty_division(const Order& order,
   for (int k = 0; k < count_; ++k) {
     matrix->counts.push_back(matrix->first[k + 1] - matrix->first[k]);
   }
-  matrix->starts = {0};
   return matrix;
 }
 
@@ -133,40 +132,47 @@ bool Ranks::divide_together(const Order& order, const BuckensGridRows* of,
   MPI_Bcast(entries.data(), count_, MPI_INT, 0, work_);
   count_messages(count_ - 1, sizeof(int) * static_cast<double>(count_));
   const auto mine = static_cast<std::size_t>(entries[rank_]);
+  OwnRows own;
   const bool has_room = has_memory_for([&] {
-    matrix->starts.resize(static_cast<std::size_t>(matrix->counts[rank_]) + 1);
-    matrix->rows.resize(mine);
-    matrix->values.resize(mine);
+    own.starts.resize(static_cast<std::size_t>(matrix->counts[rank_]) + 1);
+    own.rows.resize(mine);
+    own.values.resize(mine);
   });
   if (has_failed_somewhere(!has_room)) return false;
-  exchange_columns(all, *matrix);
-  return keep(order, of, std::move(matrix), facts);
+  exchange_columns(all, *matrix, own);
+  return keep(order, of, std::move(matrix), own, facts);
 }
 
 /// Of a matrix whose rows are numbers of variables: what all know of it, and their places.
+/// @param own columns here; it is empty afterwards
 bool Ranks::keep(const Order& order, const BuckensGridRows* of, std::unique_ptr<Divided> matrix,
-                 BuckensGridFacts& facts) {
+                 OwnRows& own, BuckensGridFacts& facts) {
   const bool is_listed = has_memory_for([&] {
     const bool lists_own = matrix->is_symmetric;
     list_rows(lists_own ? order.size : order.columns, lists_own ? matrix->first[rank_] : 0,
-              lists_own ? matrix->counts[rank_] : 0, matrix->rows, matrix->variables);
+              lists_own ? matrix->counts[rank_] : 0, own.rows, matrix->variables);
   });
   if (has_failed_somewhere(!is_listed)) return false;
   exchange_lists(*matrix);
   if (matrix->is_symmetric) {
     std::vector<int> variables;
     if (!agree_on_variables(order, of, *matrix, variables)) return false;
-    sum_facts(*matrix, variables, facts);
+    sum_facts(own, variables, facts);
   }
+  const bool is_kept = has_memory_for([&] {
+    matrix->columns = KeptColumns(own.starts, std::move(own.rows), std::move(own.values));
+    own = {};
+  });
+  if (has_failed_somewhere(!is_kept)) return false;
   shared_->matrices[order.number] = std::move(matrix);
   return true;
 }
 
-void Ranks::exchange_columns(const BuckensGridColumns* all, Divided& matrix) {
+void Ranks::exchange_columns(const BuckensGridColumns* all, const Divided& matrix, OwnRows& own) {
   if (all == nullptr) {
-    receive(matrix.starts.data(), matrix.starts.size(), 0, work_);
-    receive(matrix.rows.data(), matrix.rows.size(), 0, work_);
-    receive(matrix.values.data(), matrix.values.size(), 0, work_);
+    receive(own.starts.data(), own.starts.size(), 0, work_);
+    receive(own.rows.data(), own.rows.size(), 0, work_);
+    receive(own.values.data(), own.values.size(), 0, work_);
     return;
   }
   for (int k = 1; k < count_; ++k) {
@@ -214,9 +220,11 @@ void Ranks::gather(int matrix, int* starts, int* rows, double* values) {
 void Ranks::gather_together(const Order& order, int* starts, int* rows, double* values) {
   const Divided& matrix = *shared_->matrices.at(order.number);
   if (rank_ != 0) {
-    send(matrix.starts.data(), matrix.starts.size(), 0, work_);
-    send(matrix.rows.data(), matrix.rows.size(), 0, work_);
-    send(matrix.values.data(), matrix.values.size(), 0, work_);
+    OwnRows own;
+    matrix.columns.list(own.starts, own.rows, own.values);
+    send(own.starts.data(), own.starts.size(), 0, work_);
+    send(own.rows.data(), own.rows.size(), 0, work_);
+    send(own.values.data(), own.values.size(), 0, work_);
     return;
   }
   std::vector<OwnRows> parts(static_cast<std::size_t>(count_));

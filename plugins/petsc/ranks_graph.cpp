@@ -22,10 +22,8 @@ unsigned long long mark_of(int row) {
 /// Calls visit(column, row) for the entries here of the lower triangle of a sum.
 template <class Matrix, class Visitor>
 void visit_pattern(const std::vector<const Matrix*>& terms, int first, Visitor&& visit) {
-  std::vector<int> at(terms.size());
-  for (int k = 0; k < terms.front()->count(); ++k) {
-    visit_column(terms, k, first + k, at,
-                 [&](int row, const TermValues&) { visit(first + k, row); });
+  for (int k = 0; k < terms.front()->columns.count(); ++k) {
+    visit_column(terms, k, first + k, [&](int row, const TermValues&) { visit(first + k, row); });
   }
 }
 

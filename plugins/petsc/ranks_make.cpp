@@ -156,8 +156,7 @@ bool Ranks::factorise_together(const Order& order, const BuckensGridMatrix* matr
 bool Ranks::make_with_room(MumpsFactor& factor) {
   ArraysAside aside;
   for (auto& [number, matrix] : shared_->matrices) {
-    aside.put(matrix->rows);
-    aside.put(matrix->values);
+    matrix->columns.put(aside);
   }
   const bool is_made = factor.make();
   give_memory_back();
@@ -166,7 +165,7 @@ bool Ranks::make_with_room(MumpsFactor& factor) {
   if (has_room && is_back) return is_made;
   if (has_room) set_reason("the disk has lost the rows of M and K, which it had meanwhile");
   for (auto& [number, matrix] : shared_->matrices) {
-    std::fill(matrix->starts.begin(), matrix->starts.end(), 0);  // no product reads what is lost
+    matrix->columns.lose();  // no product reads what is lost
   }
   return false;
 }

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <vector>
 
+#include "kept_columns.h"
 #include "mumps_factor.h"
 #include "ranks.h"
 #include "reasons.h"
@@ -126,21 +127,18 @@ struct Ranks::Divided {
   int size = 0;
   bool is_symmetric = true;
   std::vector<int> first, counts;  // columns of the processes, and the end
-  std::vector<int> starts, rows;   // of those here; rows are places in `variables`
-  std::vector<double> values;
-  std::vector<int> variables;  // ascending; of a symmetric one they begin with the columns here
+  KeptColumns columns;             // those here; rows are places in `variables`
+  std::vector<int> variables;      // ascending; of a symmetric one they begin with the columns here
   // Of the first process: `variables` of all, one process after the other.
   std::vector<int> lists, list_first, list_counts;
   // Of the others: to `variables` behind the columns here; null before it is used.
   std::unique_ptr<Way> way;
 
-  /// Columns here.
-  int count() const { return static_cast<int>(starts.size()) - 1; }
   /// Numbers that a process adds to a product, there.
   std::size_t num_results(int rank) const {
     return is_symmetric ? variables.size() : static_cast<std::size_t>(counts[rank]);
   }
-  void add_symmetric(int columns, const double* x, double* y) const;
+  void add_symmetric(int count, const double* x, double* y) const;
   void add_rows(int count, const double* x, double* y) const;
 };
 
@@ -174,7 +172,7 @@ struct Ranks::Shared {
 /// Rows of a symmetric matrix, which are its columns.
 struct Ranks::OwnRows {
   BuckensGridColumns columns{};  // those below, or the first process's
-  std::vector<int> starts, rows;
+  std::vector<int> starts = {0}, rows;
   std::vector<double> values, motions;
 };
 

@@ -76,13 +76,14 @@ void Ranks::add_share(const std::vector<const Divided*>& matrices, int process, 
 }
 
 /// y ← y + A x of the columns here of a symmetric matrix, and of their entries as rows.
-void Ranks::Divided::add_symmetric(int columns, const double* x, double* y) const {
-  for (int column = 0; column < columns; ++column) {
+void Ranks::Divided::add_symmetric(int count, const double* x, double* y) const {
+  for (int column = 0; column < count; ++column) {
+    const KeptColumns::Column of = columns.column(column);
     double sum = 0;
-    for (int e = starts[column]; e < starts[column + 1]; ++e) {
-      const int row = rows[e];
-      sum += values[e] * x[row];
-      if (row != column) y[row] += values[e] * x[column];
+    for (int e = 0; e < of.size; ++e) {
+      const int row = of.row(e);
+      sum += of.value(e) * x[row];
+      if (row != column) y[row] += of.value(e) * x[column];
     }
     y[column] += sum;
   }
@@ -90,7 +91,8 @@ void Ranks::Divided::add_symmetric(int columns, const double* x, double* y) cons
 
 void Ranks::Divided::add_rows(int count, const double* x, double* y) const {
   for (int row = 0; row < count; ++row) {
-    for (int e = starts[row]; e < starts[row + 1]; ++e) y[row] += values[e] * x[rows[e]];
+    const KeptColumns::Column of = columns.column(row);
+    for (int e = 0; e < of.size; ++e) y[row] += of.value(e) * x[of.row(e)];
   }
 }
 

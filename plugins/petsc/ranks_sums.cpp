@@ -26,9 +26,8 @@ bool Ranks::sum_terms(const Order& order, const double* of_terms, OwnRows& own) 
   const int first = terms.front()->first[rank_];
   const int count = terms.front()->counts[rank_];
   return has_memory_for([&] {
-    std::vector<int> at(terms.size());
     const auto visit = [&](int column, auto&& visitor) {
-      visit_column(terms, column, first + column, at, visitor);
+      visit_column(terms, column, first + column, visitor);
     };
     own.starts.assign(static_cast<std::size_t>(count) + 1, 0);
     for (int column = 0; column < count; ++column) {
@@ -65,10 +64,7 @@ bool Ranks::add_up_together(const Order& order, const double* weights, const Buc
   std::unique_ptr<Divided> matrix = empty_division(order, of);
   OwnRows own;
   if (has_failed_somewhere(!sum_terms(order, weights, own))) return false;
-  matrix->starts.swap(own.starts);
-  matrix->rows.swap(own.rows);
-  matrix->values.swap(own.values);
-  return keep(order, of, std::move(matrix), facts);
+  return keep(order, of, std::move(matrix), own, facts);
 }
 
 double Ranks::inner_product(int count, const int* terms, const double* a, const double* b) {
@@ -89,10 +85,9 @@ double Ranks::inner_product_together(const Order& order, const double* a, const 
   MPI_Bcast(of_b.data(), static_cast<int>(of_b.size()), MPI_DOUBLE, 0, work_);
   const int first = terms.front()->first[rank_];
   double sum = 0;
-  std::vector<int> at(terms.size());
-  for (int k = 0; k < terms.front()->count(); ++k) {
+  for (int k = 0; k < terms.front()->columns.count(); ++k) {
     double of_column = 0;
-    visit_column(terms, k, first + k, at, [&](int row, const TermValues& values) {
+    visit_column(terms, k, first + k, [&](int row, const TermValues& values) {
       const double product = weighted(values, of_a) * weighted(values, of_b);
       of_column += row == first + k ? product : 2 * product;
     });

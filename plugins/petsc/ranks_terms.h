@@ -12,16 +12,17 @@ namespace buckens_petsc {
 using TermValues = std::array<double, kBuckensMostProducts>;
 
 /// Calls visit(row, values) for the entries of a column of a sum from a row on, rows ascending.
-/// @param at room for one place per term
 template <class Matrix, class Visitor>
 void visit_column(const std::vector<const Matrix*>& terms, int column, int least_row,
-                  std::vector<int>& at, Visitor&& visit) {
+                  Visitor&& visit) {
+  std::array<KeptColumns::Column, kBuckensMostProducts> of{};
+  std::array<int, kBuckensMostProducts> at{};
   const auto row_of = [&](std::size_t t) {
-    return terms[t]->variables[static_cast<std::size_t>(terms[t]->rows[at[t]])];
+    return terms[t]->variables[static_cast<std::size_t>(of[t].row(at[t]))];
   };
-  const auto is_left = [&](std::size_t t) { return at[t] < terms[t]->starts[column + 1]; };
+  const auto is_left = [&](std::size_t t) { return at[t] < of[t].size; };
   for (std::size_t t = 0; t < terms.size(); ++t) {
-    at[t] = terms[t]->starts[column];
+    of[t] = terms[t]->columns.column(column);
     while (is_left(t) && row_of(t) < least_row) ++at[t];
   }
   for (;;) {
@@ -32,7 +33,7 @@ void visit_column(const std::vector<const Matrix*>& terms, int column, int least
     if (row < 0) return;
     TermValues values{};
     for (std::size_t t = 0; t < terms.size(); ++t) {
-      if (is_left(t) && row_of(t) == row) values[t] = terms[t]->values[at[t]++];
+      if (is_left(t) && row_of(t) == row) values[t] = of[t].value(at[t]++);
     }
     visit(row, values);
   }
