@@ -3,57 +3,49 @@
 
 #include <algorithm>
 #include <cstring>
-#include <utility>
 
 #include "arrays_aside.h"
 
 namespace buckens_petsc {
 
-/// What is kept moves to the front of the lists, over what has been read.
-KeptColumns::KeptColumns(const std::vector<int>& starts, std::vector<int>&& rows,
-                         std::vector<double>&& values)
-    : rows_(std::move(rows)), values_(std::move(values)) {
-  const auto move_down = [](auto& list, int from, int to, int count) {
-    if (to < from) std::copy_n(list.begin() + from, count, list.begin() + to);
-  };
-  places_.reserve(starts.size() - 1);
-  int end_of_rows = 0, end_of_values = 0;
-  int last_list = 0;  // from where on
-  for (std::size_t k = 0; k + 1 < starts.size(); ++k) {
-    const int size = starts[k + 1] - starts[k];
-    const int* own_rows = rows_.data() + starts[k];
-    const double* own_values = values_.data() + starts[k];
-    Place at{end_of_rows, end_of_values, size, 0};
-    const int from = end_of_rows - size;
-    const int moved = size > 0 && from >= last_list ? own_rows[0] - rows_[from] : 0;
-    if (size > 0 && from >= last_list && ends_with(from, moved, own_rows, size)) {
-      at.row = from;
-      at.moved = moved;
-    } else {
-      move_down(rows_, starts[k], end_of_rows, size);
-      last_list = end_of_rows;
-      end_of_rows += size;
-    }
-    const bool is_as_before =
-        k > 0 && places_.back().size == size &&
-        std::memcmp(values_.data() + places_.back().value, own_values, sizeof(double) * size) == 0;
-    if (is_as_before) {
-      at.value = places_.back().value;
-    } else {
-      move_down(values_, starts[k], end_of_values, size);
-      end_of_values += size;
-    }
-    places_.push_back(at);
-  }
-  rows_.resize(static_cast<std::size_t>(end_of_rows));
-  rows_.shrink_to_fit();
-  values_.resize(static_cast<std::size_t>(end_of_values));
-  values_.shrink_to_fit();
+void KeptColumns::reserve(std::size_t columns, std::size_t entries) {
+  places_.reserve(columns);
+  rows_.reserve(entries);
+  values_.reserve(entries);
 }
 
-bool KeptColumns::ends_with(int from, int moved, const int* rows, int size) const {
-  return std::equal(rows, rows + size, rows_.data() + from,
-                    [moved](int row, int before) { return row == before + moved; });
+void KeptColumns::add(const int* rows, const double* values, int size) {
+  const auto count = static_cast<std::size_t>(size);
+  const auto row_end = static_cast<int>(rows_.size());
+  const auto value_end = static_cast<int>(values_.size());
+  Place at{row_end - size, value_end - size, size, 0};
+  if (size > 0 && at.row >= last_list_)
+    at.moved = rows[0] - rows_[static_cast<std::size_t>(at.row)];
+  const bool has_rows = at.row >= last_list_ &&
+                        std::equal(rows, rows + size, rows_.begin() + at.row,
+                                   [&at](int row, int before) { return row == before + at.moved; });
+  if (!has_rows) {
+    rows_.insert(rows_.end(), rows, rows + size);
+    at.row = last_list_ = row_end;
+    at.moved = 0;
+  }
+  const bool has_values =
+      at.value >= 0 && !places_.empty() && places_.back().size == size &&
+      places_.back().value == at.value &&
+      std::memcmp(values_.data() + at.value, values, sizeof(double) * count) == 0;
+  if (!has_values) {
+    values_.insert(values_.end(), values, values + size);
+    at.value = value_end;
+  }
+  places_.push_back(at);
+}
+
+void KeptColumns::add(const std::vector<int>& starts, const std::vector<int>& rows,
+                      const std::vector<double>& values) {
+  reserve(places_.size() + starts.size() - 1, values_.size() + values.size());
+  for (std::size_t k = 0; k + 1 < starts.size(); ++k) {
+    add(rows.data() + starts[k], values.data() + starts[k], starts[k + 1] - starts[k]);
+  }
 }
 
 void KeptColumns::list(std::vector<int>& starts, std::vector<int>& rows,

@@ -27,10 +27,13 @@ class KeptColumns {
     double value(int entry) const { return values[entry]; }
   };
 
-  KeptColumns() = default;
-  /// @param starts of the columns, and the end @param rows ascending in each column
-  KeptColumns(const std::vector<int>& starts, std::vector<int>&& rows,
-              std::vector<double>&& values);
+  /// Room for what is added. Memory counts once there is something in it.
+  void reserve(std::size_t columns, std::size_t entries);
+  /// @param rows ascending
+  void add(const int* rows, const double* values, int size);
+  /// @param starts of the columns, and the end
+  void add(const std::vector<int>& starts, const std::vector<int>& rows,
+           const std::vector<double>& values);
 
   int count() const { return static_cast<int>(places_.size()); }
   Column column(int k) const {
@@ -39,7 +42,7 @@ class KeptColumns {
   }
   /// As they were given.
   void list(std::vector<int>& starts, std::vector<int>& rows, std::vector<double>& values) const;
-  /// What is stored, in bytes.
+  /// What is stored.
   std::size_t bytes() const;
 
   /// Between the two no column may be read.
@@ -52,12 +55,11 @@ class KeptColumns {
     int row, value;  // first ones
     int size, moved;
   };
-  /// Whether the rows of the last list, from `from` on, moved, are these.
-  bool ends_with(int from, int moved, const int* rows, int size) const;
 
   std::vector<Place> places_;
   std::vector<int> rows_;
   std::vector<double> values_;
+  int last_list_ = 0;  // in rows_, from where on
 };
 
 }  // namespace buckens_petsc

@@ -131,6 +131,9 @@ class Ranks {
                              const BuckensGridDescription* of, BuckensGridFacts& facts);
   bool send_descriptions(const std::vector<int>& first, const BuckensGridDescription& of);
   bool receive_description(std::vector<char>& description);
+  template <class Visitor>
+  bool make_some(const std::vector<char>& description, int first, int end, Visitor&& visit);
+  bool make_rows_of(const std::vector<char>& description, int columns, Divided& matrix);
   bool make_columns_of(const std::vector<char>& description, const Divided& matrix, OwnRows& made);
   bool add_up_together(const Order& order, const double* weights, const BuckensGridRows* of,
                        BuckensGridFacts& facts);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Matrices of which each process makes its columns, and what the first one knows of them.
+#include <algorithm>
 #include <array>
 #include <numeric>
 
@@ -8,6 +9,11 @@
 #include "ranks_parts.h"
 
 namespace buckens_petsc {
+
+namespace {
+// Those of some thousand elements.
+constexpr int kRowsAtATime = 12'288;
+}  // namespace
 
 int Ranks::make_columns(int size, const BuckensGridRows& rows, const BuckensGridDescription& of,
                         BuckensGridFacts& facts) {
@@ -32,10 +38,18 @@ bool Ranks::make_columns_together(const Order& order, const BuckensGridRows* row
     is_made = send_descriptions(matrix->first, *of);
   } else {
     std::vector<char> description;
-    is_made = receive_description(description) && make_columns_of(description, *matrix, made);
+    is_made = receive_description(description) &&
+              (matrix->is_symmetric ? make_columns_of(description, *matrix, made)
+                                    : make_rows_of(description, order.columns, *matrix));
   }
   if (has_failed_somewhere(!is_made)) return false;
-  const bool is_kept = keep(order, rows, std::move(matrix), made, facts);
+  bool is_kept = true;
+  if (matrix->is_symmetric) {
+    is_kept = keep(order, rows, std::move(matrix), made, facts);
+  } else {
+    exchange_lists(*matrix);
+    shared_->matrices[order.number] = std::move(matrix);
+  }
   give_memory_back();  // of elements and of what they add
   return is_kept;
 }
@@ -65,26 +79,76 @@ bool Ranks::send_descriptions(const std::vector<int>& first, const BuckensGridDe
   return has_memory;
 }
 
-bool Ranks::make_columns_of(const std::vector<char>& description, const Divided& matrix,
-                            OwnRows& made) {
+/// Calls visit(columns) for those that the program makes.
+template <class Visitor>
+bool Ranks::make_some(const std::vector<char>& description, int first, int end, Visitor&& visit) {
   std::array<char, 400> error{};
   BuckensGridColumns columns{};
-  const int first = matrix.first[rank_];
-  const int end = matrix.first[rank_ + 1];
   const auto bytes = static_cast<long>(description.size());
   if (maker_.make(description.data(), bytes, first, end, &columns, error.data(),
                   static_cast<int>(error.size())) != 0) {
     set_reason(error.data());
     return false;
   }
-  const bool has_room = has_memory_for([&] {
+  const bool has_room = has_memory_for([&] { visit(columns); });
+  (void)maker_.make(nullptr, 0, 0, 0, nullptr, error.data(), static_cast<int>(error.size()));
+  return has_room;
+}
+
+bool Ranks::make_columns_of(const std::vector<char>& description, const Divided& matrix,
+                            OwnRows& made) {
+  const int first = matrix.first[rank_];
+  const int end = matrix.first[rank_ + 1];
+  return make_some(description, first, end, [&](const BuckensGridColumns& columns) {
     const int entries = columns.starts[end - first];
     made.starts.assign(columns.starts, columns.starts + (end - first) + 1);
     made.rows.assign(columns.rows, columns.rows + entries);
     made.values.assign(columns.values, columns.values + entries);
   });
-  (void)maker_.make(nullptr, 0, 0, 0, nullptr, error.data(), static_cast<int>(error.size()));
-  return has_room;
+}
+
+/// Some rows at a time, since making takes as much memory as keeping. A first time tells which
+/// variables there are.
+bool Ranks::make_rows_of(const std::vector<char>& description, int columns, Divided& matrix) {
+  const int end = matrix.first[rank_ + 1];
+  const auto visit_some = [&](auto&& visit) {
+    for (int row = matrix.first[rank_]; row < end; row += kRowsAtATime) {
+      const int count = std::min(kRowsAtATime, end - row);
+      if (!make_some(description, row, row + count,
+                     [&](const BuckensGridColumns& made) { visit(made, count); })) {
+        return false;
+      }
+    }
+    return true;
+  };
+  std::vector<int> place, places_of_row;
+  if (!has_memory_for([&] { place.assign(static_cast<std::size_t>(columns), -1); })) return false;
+  std::size_t entries = 0;
+  if (!visit_some([&](const BuckensGridColumns& made, int count) {
+        for (int e = 0; e < made.starts[count]; ++e) place[made.rows[e]] = 0;
+        entries += static_cast<std::size_t>(made.starts[count]);
+      })) {
+    return false;
+  }
+  const bool has_room = has_memory_for([&] {
+    for (int variable = 0; variable < columns; ++variable) {
+      if (place[variable] < 0) continue;
+      place[variable] = static_cast<int>(matrix.variables.size());
+      matrix.variables.push_back(variable);
+    }
+    matrix.columns.reserve(static_cast<std::size_t>(matrix.counts[rank_]), entries);
+  });
+  return has_room && visit_some([&](const BuckensGridColumns& made, int count) {
+           for (int row = 0; row < count; ++row) {
+             const int first = made.starts[row];
+             places_of_row.clear();
+             for (int e = first; e < made.starts[row + 1]; ++e) {
+               places_of_row.push_back(place[made.rows[e]]);
+             }
+             matrix.columns.add(places_of_row.data(), made.values + first,
+                                static_cast<int>(places_of_row.size()));
+           }
+         });
 }
 
 void Ranks::sum_facts(const OwnRows& columns, const std::vector<int>& variables,

@@ -160,7 +160,7 @@ bool Ranks::keep(const Order& order, const BuckensGridRows* of, std::unique_ptr<
     sum_facts(own, variables, facts);
   }
   const bool is_kept = has_memory_for([&] {
-    matrix->columns = KeptColumns(own.starts, std::move(own.rows), std::move(own.values));
+    matrix->columns.add(own.starts, own.rows, own.values);
     own = {};
   });
   if (has_failed_somewhere(!is_kept)) return false;

@@ -25,7 +25,11 @@ struct List {
     }
     starts.push_back(static_cast<int>(rows.size()));
   }
-  KeptColumns kept() const { return {starts, std::vector<int>(rows), std::vector<double>(values)}; }
+  KeptColumns kept() const {
+    KeptColumns out;
+    out.add(starts, rows, values);
+    return out;
+  }
 };
 
 std::vector<std::uint64_t> bits(const std::vector<double>& values) {

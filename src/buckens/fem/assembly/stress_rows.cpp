@@ -44,31 +44,37 @@ int num_rows(const Blocks& blocks) {
 }
 
 /// Calls visit(row, column, value) for the entries, row by row, columns ascending.
+/// @param begin,end rows that are wanted; of others there may be some
 template <class Visitor>
-void visit_entries(const Blocks& blocks, const MeshView& mesh, Visitor&& visit) {
+void visit_entries(const Blocks& blocks, const MeshView& mesh, int begin, int end,
+                   Visitor&& visit) {
   visit_stressed(blocks, [&](const ElementBlock& block, int first_row, int rows) {
     visit_pieces(block, mesh.nodes, [&](const ElementBlock& piece, int first) {
+      const int first_of_piece = first_row + rows * first;
+      if (first_of_piece >= end || first_of_piece + rows * piece.num_elements() <= begin) return;
       std::vector<linalg::Triplet> listed;
       piece.add_stress_rows(mesh, 0, listed);
       std::sort(listed.begin(), listed.end(), [](const auto& a, const auto& b) {
         return std::pair(a.row(), a.col()) < std::pair(b.row(), b.col());
       });
       for (const linalg::Triplet& entry : listed) {
-        visit(first_row + rows * first + entry.row(), entry.col(), entry.value());
+        visit(first_of_piece + entry.row(), entry.col(), entry.value());
       }
     });
   });
 }
 
 linalg::SparseRows::RowMajor rows_of_this_process(const Blocks& blocks, const MeshView& mesh) {
-  linalg::SparseRows::RowMajor out(num_rows(blocks), mesh.dofs.num_dofs);
+  const int count = num_rows(blocks);
+  linalg::SparseRows::RowMajor out(count, mesh.dofs.num_dofs);
   int* starts = out.outerIndexPtr();
   std::fill_n(starts, out.rows() + 1, 0);
-  visit_entries(blocks, mesh, [starts](int row, int, double) { ++starts[row + 1]; });
+  const auto visit = [&](auto&& entry) { visit_entries(blocks, mesh, 0, count, entry); };
+  visit([starts](int row, int, double) { ++starts[row + 1]; });
   std::partial_sum(starts, starts + out.rows() + 1, starts);
   out.resizeNonZeros(starts[out.rows()]);
   int place = 0;
-  visit_entries(blocks, mesh, [&](int, int column, double value) {
+  visit([&](int, int column, double value) {
     out.innerIndexPtr()[place] = column;
     out.valuePtr()[place++] = value;
   });
@@ -128,12 +134,14 @@ std::vector<std::byte> description_of_stress_rows(const Blocks& blocks, const Me
 SparseMatrix made_stress_rows(base::BytesFrom description, int first, int end) {
   const int first_of_part = description.next<int>();
   const MeshPart part = taken_part(description);
+  const int begin = first - first_of_part;  // of the part
   const auto visit = [&](auto&& entry) {
-    visit_entries(part.blocks, {part.nodes, part.dofs}, [&](int row, int column, double value) {
-      const int of_whole = first_of_part + row;
-      if (of_whole < first || of_whole >= end) return;
-      entry(part.variables[static_cast<std::size_t>(column)], of_whole - first, value);
-    });
+    visit_entries(part.blocks, {part.nodes, part.dofs}, begin, begin + end - first,
+                  [&](int row, int column, double value) {
+                    const int wanted = row - begin;
+                    if (wanted < 0 || wanted >= end - first) return;
+                    entry(part.variables[static_cast<std::size_t>(column)], wanted, value);
+                  });
   };
   return linalg::from_counted_entries(part.size, end - first, visit);
 }
