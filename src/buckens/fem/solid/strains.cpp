@@ -86,6 +86,7 @@ SolidStrains::SolidStrains(const FeModel& fe, const std::vector<int>& nodes,
   }
   add_places(nodes);
   std::vector<int> counts(places_.size());
+  int num_inner = 0;
   for (std::size_t e = 0; e < solids.size(); ++e) {
     const auto& [block, index] = solids[e];
     Element element{block, index, rows[e], solid_materials_[e], -1, -1};
@@ -101,10 +102,13 @@ SolidStrains::SolidStrains(const FeModel& fe, const std::vector<int>& nodes,
     if (element.first_corner < 0 && element.row < 0) continue;
     if (block->form(index).integration == SolidIntegration::incompatible_modes &&
         element.first_corner >= 0) {
-      element.inner = static_cast<int>(inner_.size());
-      inner_.push_back(inner_inverse(element));
+      element.inner = num_inner++;
     }
     elements_.push_back(element);
+  }
+  inner_.reserve(static_cast<std::size_t>(num_inner));
+  for (const Element& element : elements_) {
+    if (element.inner >= 0) inner_.push_back(inner_inverse(element));
   }
   for (const int count : counts) share_.push_back(count > 0 ? 1.0 / count : 0.0);
 }
