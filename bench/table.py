@@ -177,19 +177,19 @@ def mode_table(results):
     rows = list(of_section(results, "modes"))
     pairs = {}
     for row in rows:
-        pairs.setdefault(shape(row), {})[row["method"]] = row
+        pairs.setdefault(shape(row), {})[row["method"], row.get("threads", 1)] = row
     cells = []
     for block, methods in pairs.items():
-        ours, spectra = (methods.get(name, {}) for name in ("subspace", "spectra"))
+        ours, on_two, spectra = (methods.get(key, {}) for key in (("subspace", 1), ("subspace", 2), ("spectra", 1)))
         if "dof" not in ours:
             continue
         difference = (abs(ours["highest"] / spectra["highest"] - 1.0)
                       if "highest" in spectra else None)
-        cells.append([block, dofs(ours["dof"]), number(ours["seconds"]),
+        cells.append([block, dofs(ours["dof"]), number(ours["seconds"]), number(on_two.get("seconds")),
                       number(spectra.get("seconds")), number(ours["solves"], 4),
                       number(spectra.get("solves"), 4),
                       "–" if difference is None else f"{difference:.0e}"])
-    head = ["block", "DOF", "`subspace` [s]", "`spectra` [s]", "solves", "solves, `spectra`",
+    head = ["block", "DOF", "`subspace` [s]", "on 2 threads [s]", "`spectra` [s]", "solves", "solves, `spectra`",
             "difference of the 20th"]
     return ["### 20 lowest free vibrations, factorisation included", "", *lines_of(head, cells),
             *failures(rows)]
