@@ -347,6 +347,48 @@ def test_a_sweep_goes_on(buckens, start, tmp_path):
     assert any("goes on from a state" in note for note in notes), notes
 
 
+LONG = {
+    "buckens": 1, "gravity": [0, -9.81, 0],
+    "bodies": {"block": {"coupling": "full", "mesh": {
+        "box": {"size": [0.1, 0.1, 0.1], "divisions": [12, 12, 12], "element": "hex8"},
+        "material": {"E": 2e9, "nu": 0.3, "rho": 7850}}}},
+    "joints": {"pin": {"spherical": {"between": ["ground", "block/corner_000"]}}},
+    "initial": {"bodies": {"block": {"angular-velocity": [50, 100, 150]}}},
+    "simulation": {"duration": 0.002, "step": 1e-4},
+    "output": {"every": 2e-4, "sensors": {"tip": {"position": "block/corner_100"}}}}
+
+
+def test_long_lists_are_read_as_they_are_restored(buckens, start, tmp_path):
+    """Displacements and kept solves of 6591 variables stay in the checkpoint until the visit of what is saved asks for them."""
+    (tmp_path / "model.json").write_text(json.dumps(LONG))
+    buckens("run", "model.json", "-q", "-o", "whole").must(0)
+    with h5py.File(tmp_path / "whole/checkpoint.h5", "r") as file:
+        assert sum(length == 6591 for length in file["numbers/lengths"][:]) > 20
+    buckens("run", "model.json", "-q", "-o", "out", "--set", "simulation.duration=1 ms").must(0)
+    out = tmp_path / "out"
+    buckens("run", "--continue", "out", "--until", "2 ms", "-q").must(0)
+    check_same(tmp_path / "whole", out)
+    # The checkpoint is closed once it has been read: the run writes others.
+    process = start("run", "--continue", "out", "--until", 100, "-q", *FREQUENT)
+    before = (out / "checkpoint.h5").stat().st_ino
+    while (out / "checkpoint.h5").stat().st_ino == before:
+        assert process.poll() is None, process.stderr.read()
+        time.sleep(0.01)
+    looks = []
+    for _ in range(50):  # a checkpoint that is being written is open, too
+        files = []
+        for descriptor in os.listdir(f"/proc/{process.pid}/fd"):
+            try:
+                files.append(os.readlink(f"/proc/{process.pid}/fd/{descriptor}"))
+            except OSError:  # closed in the meantime
+                pass
+        assert any("results.h5" in file or "log" in file for file in files), files
+        looks.append([file for file in files if "checkpoint.h5" in file])
+        time.sleep(0.01)
+    assert [] in looks, looks
+    assert process.poll() is None
+
+
 def test_a_run_in_progress_is_left_alone(buckens, start, models, tmp_path):
     process = start("run", models / "endless.yaml", "-o", "out", "-q", *FREQUENT)
     wait_for(tmp_path / "out" / "checkpoint.h5", process)

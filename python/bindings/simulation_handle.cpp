@@ -65,6 +65,7 @@ void SimulationHandle::set_up(const SimulationSettings& settings) {
   if (start) {
     simulation_->restore(*start,
                          settings.continues ? analysis::Leeway::steps : analysis::Leeway::none);
+    start.reset();  // closes its file
   }
   if (settings.continues && simulation_->is_done()) {
     throw InputError(

@@ -22,7 +22,45 @@ bool are_finite(const Numbers& values) {
   return std::all_of(values.begin(), values.end(), [](auto value) { return std::isfinite(value); });
 }
 
+/// The entry of this name, or null.
+template <class Map>
+const typename Map::mapped_type* entry(const Map& map, const std::string& path) {
+  const auto found = map.find(path);
+  return found == map.end() ? nullptr : &found->second;
+}
+
+template <class Map, class Take>
+void for_each_beginning(const Map& map, const std::string& beginning, const Take& take) {
+  for (auto it = map.lower_bound(beginning); it != map.end() && it->first.starts_with(beginning);
+       ++it) {
+    take(it->first, it->second);
+  }
+}
+
 }  // namespace
+
+SavedValues SavedValues::part(const std::string& beginning) const {
+  SavedValues out;
+  const auto copy_to = [](auto& map) {
+    return [&map](const std::string& path, const auto& list) { map[path] = list; };
+  };
+  for_each_beginning(numbers, beginning, copy_to(out.numbers));
+  for_each_beginning(singles, beginning, copy_to(out.singles));
+  for_each_beginning(counts, beginning, copy_to(out.counts));
+  for_each_beginning(texts, beginning, copy_to(out.texts));
+  for_each_beginning(in_file, beginning, [&out](const std::string& path, const InFile& list) {
+    std::vector<double>& values = out.numbers[path];
+    values.resize(list.size);
+    list.read(std::span(values));
+  });
+  return out;
+}
+
+bool SavedValues::operator==(const SavedValues& other) const {
+  if (!in_file.empty() || !other.in_file.empty()) return part("") == other.part("");
+  return numbers == other.numbers && singles == other.singles && counts == other.counts &&
+         texts == other.texts;
+}
 
 SaveVisit SaveVisit::inside(const std::string& name) const {
   return {out_, from_, prefix_ + name + "/", makes_later_};
@@ -32,30 +70,46 @@ void SaveVisit::refuse(const std::string& name, const std::string& what) const {
   throw InputError(fmt::format("the saved {}{} does not fit: {}", prefix_, name, what));
 }
 
-const std::vector<double>& SaveVisit::find_numbers(const std::string& name) const {
-  const auto found = from_->numbers.find(prefix_ + name);
-  if (found == from_->numbers.end()) refuse(name, "it is missing");
-  return found->second;
+std::size_t SaveVisit::length_of(const std::string& name) const {
+  const std::string path = prefix_ + name;
+  if (const auto* list = entry(from_->numbers, path)) return list->size();
+  if (const auto* list = entry(from_->in_file, path)) return list->size;
+  if (const auto* list = entry(from_->singles, path)) return list->size();
+  refuse(name, "it is missing");
 }
 
-const std::vector<double>& SaveVisit::find_numbers(const std::string& name,
-                                                   std::size_t size) const {
-  const std::vector<double>& values = find_numbers(name);
-  require(name, values, size);
-  return values;
-}
-
-template <class Numbers>
-void SaveVisit::require(const std::string& name, const Numbers& values, std::size_t size) const {
-  if (values.size() != size) {
-    refuse(name, fmt::format("it has {} values, expected {}", values.size(), size));
+template <class List>
+List SaveVisit::restored(const std::string& name) const {
+  using Number = std::decay_t<decltype(*std::declval<List>().data())>;
+  const std::string path = prefix_ + name;
+  List out(static_cast<decltype(out.size())>(length_of(name)));
+  const auto copy = [&out](const auto& list) {
+    std::transform(list.begin(), list.end(), out.data(),
+                   [](auto number) { return static_cast<Number>(number); });
+  };
+  if (const auto* list = entry(from_->numbers, path)) {
+    copy(*list);
+  } else if (const auto* there = entry(from_->in_file, path)) {
+    there->read(std::span<Number>(out.data(), there->size));
+  } else {
+    copy(from_->singles.at(path));
   }
-  if (!are_finite(values)) refuse(name, "it holds a value that is not finite");
+  return out;
+}
+
+template <class List>
+List SaveVisit::restored(const std::string& name, std::size_t size) const {
+  const std::size_t found = length_of(name);
+  if (found != size) refuse(name, fmt::format("it has {} values, expected {}", found, size));
+  auto out = restored<List>(name);
+  if (!are_finite(out)) refuse(name, "it holds a value that is not finite");
+  return out;
 }
 
 void SaveVisit::numbers(const std::string& name, std::span<double> values) const {
   if (is_restoring()) {
-    std::copy_n(find_numbers(name, values.size()).begin(), values.size(), values.begin());
+    const auto found = restored<std::vector<double>>(name, values.size());
+    std::copy(found.begin(), found.end(), values.begin());
   } else {
     out_->numbers[prefix_ + name].assign(values.begin(), values.end());
   }
@@ -70,7 +124,7 @@ void SaveVisit::rotation(const std::string& name, Eigen::Quaterniond& q) const {
 
 void SaveVisit::any_numbers(const std::string& name, std::vector<double>& values) const {
   if (is_restoring()) {
-    values = find_numbers(name);
+    values = restored<std::vector<double>>(name);
   } else {
     out_->numbers[prefix_ + name] = values;
   }
@@ -78,7 +132,7 @@ void SaveVisit::any_numbers(const std::string& name, std::vector<double>& values
 
 void SaveVisit::list(const std::string& name, std::vector<double>& values, std::size_t size) const {
   if (is_restoring()) {
-    values = find_numbers(name, size);
+    values = restored<std::vector<double>>(name, size);
   } else {
     any_numbers(name, values);
   }
@@ -86,15 +140,16 @@ void SaveVisit::list(const std::string& name, std::vector<double>& values, std::
 
 void SaveVisit::list_or_none(const std::string& name, std::vector<double>& values,
                              std::size_t size) const {
+  const std::size_t found = is_restoring() ? length_of(name) : values.size();
+  if (found != 0 && found != size) {
+    refuse(name, fmt::format("it has {} values, expected {} or none", found, size));
+  }
   any_numbers(name, values);
-  if (values.empty() || values.size() == size) return;
-  refuse(name, fmt::format("it has {} values, expected {} or none", values.size(), size));
 }
 
 void SaveVisit::vector(const std::string& name, Eigen::VectorXd& value, Eigen::Index size) const {
   if (is_restoring()) {
-    const std::vector<double>& from = find_numbers(name, static_cast<std::size_t>(size));
-    value = Eigen::Map<const Eigen::VectorXd>(from.data(), size);
+    value = restored<Eigen::VectorXd>(name, static_cast<std::size_t>(size));
   } else {
     out_->numbers[prefix_ + name].assign(value.data(), value.data() + value.size());
   }
@@ -111,19 +166,12 @@ void SaveVisit::save_singles(const std::string& name, Eigen::Index size,
 }
 
 Eigen::VectorXf SaveVisit::restored_singles(const std::string& name, Eigen::Index size) const {
-  const auto found = from_->singles.find(prefix_ + name);
-  if (found == from_->singles.end()) {  // it comes from a file
-    Eigen::VectorXd numbers;
-    vector(name, numbers, size);
-    return numbers.cast<float>();
-  }
-  require(name, found->second, static_cast<std::size_t>(size));
-  return Eigen::Map<const Eigen::VectorXf>(found->second.data(), size);
+  return restored<Eigen::VectorXf>(name, static_cast<std::size_t>(size));
 }
 
 void SaveVisit::vector_or_none(const std::string& name, Eigen::VectorXd& value,
                                Eigen::Index size) const {
-  const bool is_none = is_restoring() && find_numbers(name).empty();
+  const bool is_none = is_restoring() && length_of(name) == 0;
   vector(name, value, is_none ? 0 : size);
 }
 

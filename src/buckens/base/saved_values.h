@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -12,6 +13,20 @@
 #include <Eigen/Geometry>
 
 namespace buckens::base {
+
+/// Numbers of an open file. Several threads may read them.
+class NumbersInFile {
+ public:
+  virtual ~NumbersInFile() = default;
+  /// @throws IoError if the file has changed, or cannot be read
+  virtual void read(std::size_t first, std::span<double> to) const = 0;
+  virtual void read(std::size_t first, std::span<float> to) const = 0;
+
+ protected:
+  NumbersInFile() = default;
+  NumbersInFile(const NumbersInFile&) = default;
+  NumbersInFile& operator=(const NumbersInFile&) = default;
+};
 
 /// Named lists of numbers and strings that make up a saved state. Names are paths, such as
 /// "state/bodies/0/d".
@@ -22,7 +37,20 @@ struct SavedValues {
     std::function<Eigen::VectorXf()> make;
   };
 
+  /// Numbers that are read when a visit asks for them. The file is open as long as there are any.
+  struct InFile {
+    std::shared_ptr<const NumbersInFile> file;
+    std::size_t first = 0, size = 0;
+
+    template <class Number>
+    void read(std::span<Number> to) const {
+      file->read(first, to);
+    }
+  };
+
   std::map<std::string, std::vector<double>> numbers;
+  /// More of these.
+  std::map<std::string, InFile> in_file;
   /// Numbers that single precision holds exactly, in half of the memory. Files have them among
   /// `numbers`.
   std::map<std::string, std::vector<float>> singles;
@@ -31,18 +59,18 @@ struct SavedValues {
   std::map<std::string, std::vector<std::int64_t>> counts;
   std::map<std::string, std::vector<std::string>> texts;
 
-  /// @pre nothing comes later
-  bool operator==(const SavedValues& other) const {
-    return numbers == other.numbers && singles == other.singles && counts == other.counts &&
-           texts == other.texts;
-  }
+  /// The lists whose names begin so, in memory. @pre nothing comes later @throws IoError
+  SavedValues part(const std::string& beginning) const;
+  /// The same lists, wherever they are. @pre nothing comes later @throws IoError
+  bool operator==(const SavedValues& other) const;
 };
 
 /// Visits the members of an object to save or restore. Each member is named only once, so that
 /// writing and reading cannot differ.
 ///
-/// When restoring, all lengths and ranges are checked before anything is changed.
-/// @throws InputError naming a value that is missing or invalid
+/// When restoring, lengths and ranges of a list are checked before anything is changed, and its
+/// length before it is read.
+/// @throws InputError naming a value that is missing or invalid, IoError if its file cannot be read
 class SaveVisit {
  public:
   static SaveVisit saving(SavedValues& out) { return {&out, nullptr, "", false}; }
@@ -92,10 +120,14 @@ class SaveVisit {
  private:
   SaveVisit(SavedValues* out, const SavedValues* from, std::string prefix, bool makes_later)
       : out_(out), from_(from), prefix_(std::move(prefix)), makes_later_(makes_later) {}
-  const std::vector<double>& find_numbers(const std::string& name) const;
-  const std::vector<double>& find_numbers(const std::string& name, std::size_t size) const;
-  template <class Numbers>
-  void require(const std::string& name, const Numbers& values, std::size_t size) const;
+  /// Of a list of numbers that is restored.
+  std::size_t length_of(const std::string& name) const;
+  /// The list in memory of its own.
+  template <class List>
+  List restored(const std::string& name) const;
+  /// The same for a list of finite numbers that must have this size.
+  template <class List>
+  List restored(const std::string& name, std::size_t size) const;
 
   SavedValues* out_;
   const SavedValues* from_;

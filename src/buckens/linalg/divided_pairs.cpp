@@ -78,17 +78,19 @@ void DividedPairs::separate(int pair, Vector& load, Vector& answer, TaskPool* /*
 
 void DividedPairs::put(int pair, double scale, const Vector& load, const Vector& answer,
                        TaskPool* /*pool*/) {
-  const VectorXf c = (scale * load).cast<float>();
-  const VectorXf x = (scale * answer).cast<float>();
+  restore(pair, (scale * load).cast<float>(), (scale * answer).cast<float>());
+}
+
+void DividedPairs::restore(int pair, const VectorXf& load, const VectorXf& answer) {
   std::vector<float> c_rows, x_rows;
   if (order_) {
-    c_rows = order_->by_rows(c.data());
-    x_rows = order_->by_rows(x.data());
+    c_rows = order_->by_rows(load.data());
+    x_rows = order_->by_rows(answer.data());
   }
   const std::scoped_lock lock(turn_of_grid_solver());
   PutOffWork::finish();
-  grid_solver().put_pair(number_, pair, order_ ? c_rows.data() : c.data(),
-                         order_ ? x_rows.data() : x.data());
+  grid_solver().put_pair(number_, pair, order_ ? c_rows.data() : load.data(),
+                         order_ ? x_rows.data() : answer.data());
 }
 
 void DividedPairs::take(int pair, VectorXf& load, VectorXf& answer) const {

@@ -21,6 +21,7 @@ class DividedPairs final : public KeptPairs {
   void put(int pair, double scale, const Vector& load, const Vector& answer,
            TaskPool* pool) override;
   void take(int pair, Eigen::VectorXf& load, Eigen::VectorXf& answer) const override;
+  void restore(int pair, const Eigen::VectorXf& load, const Eigen::VectorXf& answer) override;
   int number() const override { return number_; }
 
  private:

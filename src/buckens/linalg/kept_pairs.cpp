@@ -104,6 +104,14 @@ class OwnPairs final : public KeptPairs {
     });
   }
 
+  void restore(int pair, const VectorXf& load, const VectorXf& answer) override {
+    parts_.for_pieces(nullptr, [&](int /*part*/, Index first, Index size) {
+      const Index at = place(pair, first, size);
+      loads_.segment(at, size) = load.segment(first, size);
+      answers_.segment(at, size) = answer.segment(first, size);
+    });
+  }
+
  private:
   /// Of one part of the rows.
   struct PartSums {

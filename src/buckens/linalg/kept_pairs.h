@@ -30,6 +30,8 @@ class KeptPairs {
   virtual void put(int pair, double scale, const Vector& load, const Vector& answer,
                    TaskPool* pool) = 0;
   virtual void take(int pair, Eigen::VectorXf& load, Eigen::VectorXf& answer) const = 0;
+  /// Keeps what take() gave.
+  virtual void restore(int pair, const Eigen::VectorXf& load, const Eigen::VectorXf& answer) = 0;
   /// By which other processes know them; −1: they are in this one.
   virtual int number() const { return -1; }
 

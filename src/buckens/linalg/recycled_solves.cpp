@@ -196,7 +196,7 @@ void RecycledSolves::visit_pair(const base::SaveVisit& visit, int pair) {
   if (visit.is_restoring()) {
     const VectorXf load = visit.restored_singles("load", rows());
     const VectorXf answer = visit.restored_singles("answer", rows());
-    pairs_->put(pair, 1.0, load.cast<double>(), answer.cast<double>(), nullptr);
+    pairs_->restore(pair, load, answer);
     return;
   }
   // Other processes may have the pair, and send both: the second waits for its turn.

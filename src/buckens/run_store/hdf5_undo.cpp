@@ -17,7 +17,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/files/output_file.h"
 #include "buckens/run_store/run_files.h"
-#include "buckens/run_store/state_file.h"
+#include "buckens/run_store/sealed_file.h"
 
 namespace buckens::run_store {
 

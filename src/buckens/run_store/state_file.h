@@ -2,8 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
-#include <string_view>
 
 #include "buckens/base/saved_values.h"
 
@@ -18,16 +16,11 @@ namespace buckens::run_store {
 /// @throws IoError
 void write_state(const base::SavedValues& state, const std::filesystem::path& path);
 
+/// Long lists of numbers stay in the file, which is open until the last copy of what this returns
+/// is gone. They are read when a visit asks for them; if the file has changed by then, this is an
+/// IoError. Another file may take its place.
 /// @throws IoError if the file cannot be read, is not a saved state, has another format, is
 /// truncated or damaged
 base::SavedValues read_state(const std::filesystem::path& path);
-
-/// The bytes of an HDF5 file with their trailer.
-std::string sealed(std::string_view content);
-/// Of the contents of such a file. @param name of the file in messages
-base::SavedValues parse_state(std::string_view bytes, const std::string& name);
-
-inline constexpr int kStateFormat = 1;
-inline constexpr std::size_t kStateTrailer = 80;
 
 }  // namespace buckens::run_store

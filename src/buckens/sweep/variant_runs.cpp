@@ -145,7 +145,8 @@ class Sweep {
       options.exchange = &exchange_;
       options.stop_reason = "interrupted by the user";
       options.on_progress = [&](const analysis::Progress& progress) { return go_on(v, progress); };
-      const results::RunSummary summary = simulate(*built, *directory, options, checkpoint);
+      const results::RunSummary summary =
+          simulate(*built, *directory, options, std::move(checkpoint));
       return end(v, summary.finished ? VariantStatus::done : VariantStatus::interrupted);
     } catch (const std::exception& error) {
       failure.interrupted = reason_of(error);
@@ -174,9 +175,10 @@ class Sweep {
   static results::RunSummary simulate(const model::BuiltModel& built,
                                       run_store::RunDirectory& directory,
                                       const analysis::SimulationOptions& options,
-                                      const std::optional<base::SavedValues>& checkpoint) {
+                                      std::optional<base::SavedValues> checkpoint) {
     analysis::Simulation simulation(built, options);
     if (checkpoint) simulation.restore(*checkpoint);
+    checkpoint.reset();  // closes its file
     std::optional<analysis::Checkpoints> checkpoints;
     if (const double interval = built.description.simulation->checkpoint; interval > 0.0) {
       checkpoints.emplace(simulation, interval, [&directory](const base::SavedValues& state) {

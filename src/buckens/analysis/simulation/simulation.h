@@ -147,7 +147,7 @@ class Simulation {
   base::SavedValues save_to_write() const;
   /// Continues from there. The model must be the same except for its title, duration and leeway.
   /// @pre no step was taken
-  /// @throws InputError saying what differs; the simulation is then unusable
+  /// @throws InputError saying what differs, IoError from the file; it is unusable afterwards
   void restore(const base::SavedValues& saved, Leeway leeway = Leeway::none);
 
  private:

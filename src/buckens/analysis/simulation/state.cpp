@@ -323,7 +323,7 @@ void SimulationRun::restore(const base::SavedValues& saved, Leeway leeway) {
   }
   for (const std::string& text : told_events_) summary_.notes.push_back(text);
   observed_at_ = -1;
-  restored_ = saved;
+  restored_ = saved.part("recording/");
   summary_.notes.push_back(fmt::format("goes on from a state saved at t = {:.6g} s", state().t));
 }
 
