@@ -13,6 +13,7 @@
 #include <metis.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/linalg/node_blocks.h"
 
 namespace buckens::linalg {
 
@@ -50,6 +51,20 @@ class RowsOfSum {
   const MatrixSum* A_;
   std::vector<MatrixSum::Entry> entries_;
   std::vector<int> rows_;
+};
+
+/// Nodes of the rows of nodes.
+class NodesOfBlocks {
+ public:
+  explicit NodesOfBlocks(const NodeBlocks& A) : A_(&A) {}
+  std::span<const int> of(int node) {
+    A_->read_nodes(node, nodes_);
+    return nodes_;
+  }
+
+ private:
+  const NodeBlocks* A_;
+  std::vector<int> nodes_;
 };
 
 /// A number that differs between columns with different rows, nearly always.
@@ -228,6 +243,51 @@ ColumnGraph graph_of_rows(Eigen::Index columns, Rows rows, Rows others) {
   return graph;
 }
 
+/// Whether a term has entries only between nodes that have a block.
+bool is_within(const MatrixSum::Term& term, const NodeBlocks& blocks) {
+  const NodeBlocks* own_blocks = term.blocks();
+  const SparseMatrix* own_nodes = term.nodes();
+  if (own_blocks == &blocks) return true;
+  if (own_blocks == nullptr && own_nodes == nullptr) return false;
+  std::vector<int> nodes, own;
+  for (int node = 0; node < blocks.size() / 3; ++node) {
+    blocks.read_nodes(node, nodes);
+    if (own_blocks != nullptr) {
+      own_blocks->read_nodes(node, own);
+    } else {
+      const int* rows = own_nodes->innerIndexPtr();
+      own.assign(rows + own_nodes->outerIndexPtr()[node],
+                 rows + own_nodes->outerIndexPtr()[node + 1]);
+    }
+    if (!std::ranges::includes(nodes, own)) return false;
+  }
+  return true;
+}
+
+/// The term whose blocks are between the same nodes as all entries of the sum; null: there is none.
+const NodeBlocks* blocks_of_sum(const MatrixSum& A) {
+  const auto& terms = A.terms();
+  const auto found = std::ranges::find_if(terms, [](const MatrixSum::Term& term) {
+    return term.blocks() != nullptr && term.blocks()->has_whole_blocks();
+  });
+  if (found == terms.end()) return nullptr;
+  const NodeBlocks& blocks = *found->blocks();
+  const bool is_all = std::ranges::all_of(
+      terms, [&](const MatrixSum::Term& term) { return is_within(term, blocks); });
+  return is_all ? &blocks : nullptr;
+}
+
+/// Of the columns of nodes. @param graph of nodes
+ColumnGraph of_columns(const ColumnGraph& graph) {
+  ColumnGraph out = graph;
+  for (int& first : out.first_column) first *= 3;
+  out.columns.clear();
+  for (const int node : graph.columns) {
+    for (int k = 0; k < 3; ++k) out.columns.push_back(3 * node + k);
+  }
+  return out;
+}
+
 }  // namespace
 
 ColumnGraph column_graph(const SparseMatrix& A) {
@@ -235,6 +295,10 @@ ColumnGraph column_graph(const SparseMatrix& A) {
 }
 
 ColumnGraph column_graph(const MatrixSum& A) {
+  if (const NodeBlocks* blocks = blocks_of_sum(A)) {
+    const NodesOfBlocks rows(*blocks);
+    return of_columns(graph_of_rows(blocks->size() / 3, rows, rows));
+  }
   return graph_of_rows(A.size(), RowsOfSum(A), RowsOfSum(A));
 }
 

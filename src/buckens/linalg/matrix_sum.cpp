@@ -121,10 +121,7 @@ class MatrixSum::ColumnEntries {
   template <class Visitor>
   void visit(const Term& term, Visitor&& visitor) const {
     if (term.blocks() != nullptr) {
-      for (NodeBlocks::Column it(*term.blocks(), column_, from_); it; ++it) {
-        visitor(it.row(), it.value());
-      }
-      return;
+      return term.blocks()->visit_column(column_, from_, visitor);
     }
     const bool is_by_node = term.nodes() != nullptr;
     const Index stride = is_by_node ? 3 : 1, offset = is_by_node ? column_ % 3 : 0;

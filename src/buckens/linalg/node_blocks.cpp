@@ -121,6 +121,15 @@ bool NodeBlocks::is_mirrored(const SparseMatrix& A) const {
   return true;
 }
 
+void NodeBlocks::read_nodes(int node, std::vector<int>& nodes) const {
+  nodes.clear();
+  for (int k = left_begin_[as_index(node)]; k < left_begin_[as_index(node) + 1]; ++k) {
+    nodes.push_back(left_[as_index(k)].column);
+  }
+  nodes.insert(nodes.end(), rows_.begin() + begin_[as_index(node)],
+               rows_.begin() + begin_[as_index(node) + 1]);
+}
+
 double NodeBlocks::bytes() const {
   return bytes_of(begin_) + bytes_of(rows_) + bytes_of(values_) + bytes_of(masks_) +
          bytes_of(left_begin_) + bytes_of(left_);

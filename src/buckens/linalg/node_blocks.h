@@ -49,6 +49,13 @@ class NodeBlocks {
   void add_product(const double* x, double* y) const;
 
   class Column;
+  /// Calls visit(row, value) for the entries of a column from row `from` on, rows ascending.
+  template <class Visitor>
+  void visit_column(Eigen::Index column, Eigen::Index from, Visitor&& visit) const;
+  /// Whether the three columns of each node have entries in the same rows.
+  bool has_whole_blocks() const { return masks_.empty(); }
+  /// The nodes of the rows in which the columns of a node have entries, ascending.
+  void read_nodes(int node, std::vector<int>& nodes) const;
 
  private:
   /// A block left of the diagonal, whose mirror image is stored.
@@ -138,5 +145,30 @@ class NodeBlocks::Column {
   int row_ = 0, stride_ = 0;
   unsigned present_ = 0;
 };
+
+template <class Visitor>
+void NodeBlocks::visit_column(Eigen::Index column, Eigen::Index from, Visitor&& visit) const {
+  if (!has_whole_blocks()) {
+    for (Column it(*this, column, from); it; ++it) visit(it.row(), it.value());
+    return;
+  }
+  const auto node = static_cast<std::size_t>(column / 3);
+  const auto visit_block = [&](Eigen::Index row, const double* values, int stride) {
+    for (int r = 0; r < 3; ++r) {
+      if (row + r >= from) visit(row + r, values[stride * r]);
+    }
+  };
+  const double* of_column = values_.data() + column % 3;
+  const double* of_row = values_.data() + column % 3 * 3;
+  for (int k = left_begin_[node]; k < left_begin_[node + 1]; ++k) {
+    const Left& at = left_[static_cast<std::size_t>(k)];
+    visit_block(3 * Eigen::Index{at.column}, of_row + 9 * static_cast<std::ptrdiff_t>(at.position),
+                1);
+  }
+  for (int k = begin_[node]; k < begin_[node + 1]; ++k) {
+    visit_block(3 * Eigen::Index{rows_[static_cast<std::size_t>(k)]},
+                of_column + 9 * static_cast<std::ptrdiff_t>(k), 3);
+  }
+}
 
 }  // namespace buckens::linalg

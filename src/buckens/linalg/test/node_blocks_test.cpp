@@ -290,6 +290,60 @@ TEST(MatrixInBlocks, IsATermOfASum) {
   EXPECT_FALSE(of.K.is_formed());
 }
 
+/// Nodes of a grid, all three variables of which are coupled with all of their neighbours.
+SparseMatrix coupled_nodes(int n) {
+  const SparseMatrix nodes = matrices::grid(n, 0.3);
+  std::vector<Triplet> entries;
+  for (int column = 0; column < nodes.cols(); ++column) {
+    for (SparseMatrix::InnerIterator it(nodes, column); it; ++it) {
+      for (int k = 0; k < 9; ++k) {
+        const double value = it.value() * (k % 4 == 0 ? 1.0 : 0.1);
+        entries.emplace_back(3 * static_cast<int>(it.row()) + k / 3, 3 * column + k % 3, value);
+      }
+    }
+  }
+  SparseMatrix out(3 * nodes.rows(), 3 * nodes.cols());
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+void expect_graph_of_whole(const MatrixSum& sum) {
+  const ColumnGraph graph = column_graph(sum), expected = column_graph(sum.whole());
+  EXPECT_EQ(graph.first_column, expected.first_column);
+  EXPECT_EQ(graph.columns, expected.columns);
+  EXPECT_EQ(graph.begin, expected.begin);
+  EXPECT_EQ(graph.neighbours, expected.neighbours);
+}
+
+TEST(MatrixInBlocks, TheGraphIsThatOfNodesWhereAllOfTheirVariablesAreCoupled) {
+  const SparseMatrix full = coupled_nodes(5);
+  const SymmetricMatrix K = in_blocks(full), C = in_blocks(SparseMatrix(1e-3 * full));
+  ASSERT_NE(K.blocks(), nullptr);
+  ASSERT_TRUE(K.blocks()->has_whole_blocks());
+  const SymmetricMatrix M =
+      SymmetricMatrix::by_node(std::make_shared<SparseMatrix>(matrices::grid(5, 0.3)));
+  MatrixSum sum;
+  sum.add(7.7, M);
+  sum.add(0.3, K);
+  expect_graph_of_whole(sum);
+  sum.add(0.1, C);
+  expect_graph_of_whole(sum);
+}
+
+TEST(MatrixInBlocks, TheGraphCountsMassesBetweenNodesWithoutStiffness) {
+  const SymmetricMatrix K = in_blocks(coupled_nodes(5));
+  auto nodes = std::make_shared<SparseMatrix>(K.cols() / 3, K.cols() / 3);
+  nodes->setIdentity();
+  const int last = static_cast<int>(nodes->cols()) - 1;
+  nodes->coeffRef(0, last) = nodes->coeffRef(last, 0) = 0.01;
+  nodes->makeCompressed();
+  const SymmetricMatrix M = SymmetricMatrix::by_node(nodes);
+  MatrixSum sum;
+  sum.add(7.7, M);
+  sum.add(0.3, K);
+  expect_graph_of_whole(sum);
+}
+
 TEST(MatrixInBlocks, FactorsHaveTheBitsOfThoseOfWholeMatrices) {
   const SumWithBlocks of(9);
   const Vector b = scattered_block(of.full.cols(), 1, 3);
