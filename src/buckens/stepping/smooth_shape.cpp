@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/stepping/smooth_shape.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -90,6 +91,10 @@ class FieldsAtNodes {
     // Lengths of one keep high and low powers comparable.
     length_ = std::sqrt(0.5 * fe_->shape.J0.trace() / fe_->shape.mass);
     fields_ = smooth_fields(principal.values);
+    for (const SmoothField& field : fields_) {
+      if (std::ranges::find(monomials_, field.powers) != monomials_.end()) continue;
+      monomials_.push_back(field.powers);
+    }
   }
 
   Eigen::Index count() const { return std::ssize(fields_); }
@@ -116,6 +121,8 @@ class FieldsAtNodes {
   /// Work of nodal loads on each field.
   Vector work(const Vector& loads) const {
     Vector out = Vector::Zero(count());
+    // Fields along three axes have a monomial in common: sums of forces times each.
+    std::vector<Vector3d> sums(monomials_.size(), Vector3d::Zero());
     for (std::size_t node = 0; node < fe_->nodes.size(); ++node) {
       Vector6 f = Vector6::Zero();
       bool turns = false;
@@ -125,13 +132,18 @@ class FieldsAtNodes {
       });
       const Powers at = powers(node);
       const Vector3d force = length_ * axes_.transpose() * f.head<3>();
+      for (std::size_t m = 0; m < sums.size(); ++m) sums[m] += at.monomial(monomials_[m]) * force;
+      if (!turns) continue;
       const Vector3d moment = 0.5 * axes_.transpose() * f.tail<3>();
       for (Eigen::Index k = 0; k < count(); ++k) {
         const SmoothField& field = fields_[static_cast<std::size_t>(k)];
-        out[k] += at.monomial(field.powers) * force[field.axis];
-        if (!turns) continue;
         out[k] += at.gradient(field.powers).cross(Vector3d::Unit(field.axis)).dot(moment);
       }
+    }
+    for (Eigen::Index k = 0; k < count(); ++k) {
+      const SmoothField& field = fields_[static_cast<std::size_t>(k)];
+      const auto m = std::ranges::find(monomials_, field.powers) - monomials_.begin();
+      out[k] += sums[static_cast<std::size_t>(m)][field.axis];
     }
     return out;
   }
@@ -156,6 +168,7 @@ class FieldsAtNodes {
   Matrix3d axes_;
   double length_ = 1;
   std::vector<SmoothField> fields_;
+  std::vector<std::array<int, 3>> monomials_;  // those of all fields
 };
 
 /// Fields that are more than rigid motion, and of these, sieved, XᵀMX and XᵀKX.
