@@ -30,9 +30,12 @@ class BytesTo {
  private:
   void put(const void* from, std::size_t count) {
     const std::size_t at = bytes_.size();
+    if (count > kMany) bytes_.reserve(at + count);  // growth would double it
     bytes_.resize(at + count);
     if (count > 0) std::memcpy(bytes_.data() + at, from, count);
   }
+
+  static constexpr std::size_t kMany = std::size_t{1} << 16;
 
   std::vector<std::byte> bytes_;
 };

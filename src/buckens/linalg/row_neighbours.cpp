@@ -2,6 +2,9 @@
 #include "buckens/linalg/row_neighbours.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "buckens/linalg/counted_entries.h"
 
 namespace buckens::linalg {
 
@@ -48,16 +51,19 @@ int RowNeighbours::place_of(int unit) const {
 
 SparseMatrix columns_at_places(const SparseMatrix& A, const RowTables& own, const UnitOrder& order,
                                const RowNeighbours& beside) {
-  std::vector<Triplet> entries;
-  for (int k = 0; k < own.count; ++k) {
-    for (SparseMatrix::InnerIterator it(A, order.number(own.first + k)); it; ++it) {
-      const int unit = order.unit(static_cast<int>(it.row()));
-      entries.emplace_back(beside.place_of(unit), k, it.value());
+  std::vector<std::pair<int, double>> of_column;
+  const auto visit = [&](auto&& entry) {
+    for (int k = 0; k < own.count; ++k) {
+      of_column.clear();
+      for (SparseMatrix::InnerIterator it(A, order.number(own.first + k)); it; ++it) {
+        const int unit = order.unit(static_cast<int>(it.row()));
+        of_column.emplace_back(beside.place_of(unit), it.value());
+      }
+      std::ranges::sort(of_column, {}, &std::pair<int, double>::first);
+      for (const auto& [place, value] : of_column) entry(place, k, value);
     }
-  }
-  SparseMatrix columns(A.rows(), own.count);
-  columns.setFromTriplets(entries.begin(), entries.end());
-  return columns;
+  };
+  return from_counted_entries(static_cast<int>(A.rows()), own.count, visit);
 }
 
 }  // namespace buckens::linalg

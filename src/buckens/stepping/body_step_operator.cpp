@@ -226,7 +226,7 @@ void BodyStepOperator::solve_columns(Matrix& X) {
   if (is_diagonal()) {
     X = diagonal_inverse_.asDiagonal() * X;
   } else {
-    X = factor_->solve(X);
+    factor_->solve_in_place(X);
     part_->sieve.apply(X);
   }
   setup_solves_ += X.cols();
