@@ -179,6 +179,33 @@ loads: {push: {force: {on: cube/corner_111, value: [0, 1 N, 0], signal: push}}}
 simulation:""").replace(
     "sensors: {", "sensors: {shake: {acceleration: {of: cube/corner_011, along: [0, 1, 0]}}, push: {signal: push}, all: {energy: kinetic}, ")
 
+# A force that stresses of some elements drive: of those at a node, of one alone, and of all at the bearing.
+STRESSED = CUBE.replace("simulation:", """\
+signals: {at_node: {sensor: at_node}, alone: {sensor: alone}, around: {sensor: around}, push: "20 + 1e-3*at_node - 2e-3*alone + 3e-3*around"}
+loads: {push: {force: {on: cube/corner_111, value: [0, 1 N, 0], signal: push}}}
+simulation:""").replace("sensors: {", """sensors: {at_node: {stress: cube/corner_011}, alone: {stress: {of: cube, element: 500}}, around: {stress: cube/bearing},
+    near: {position: cube/corner_011}, push: {signal: push}, """)
+
+
+def stressed_grid():
+    """One that section forces and stresses drive of elements whose nodes follow others, among them a shell."""
+    model = json.loads(linked_grid())
+    half = GRID_SIDE // 2
+    # Of each node along x but for the last ones come the beams along x and y; the first of these has a node of the spider.
+    at_spider = (2 * GRID_SIDE - 1) * (half - 1) + 2 * (half - 1) + 1
+    structure = model["bodies"]["grid"]["structure"]
+    first_shell = sum(beam.get("elements", 1) for beam in structure["beams"]) + len(structure["bars"]) + 1
+    model["output"]["sensors"].update({
+        "section": {"section-force": {"of": "grid", "element": at_spider}}, "beam": {"stress": {"of": "grid", "element": at_spider}},
+        "shell": {"stress": {"of": "grid", "element": first_shell + 7}}, "push": {"signal": "push"}})
+    model["signals"] = {"shear": {"sensor": {"of": "section", "component": "force.Qz"}},
+                        "bending": {"sensor": {"of": "section", "component": "moment.My"}},
+                        "beam": {"sensor": {"of": "beam", "component": "mises"}}, "shell": {"sensor": "shell"},
+                        "push": "0.1 + 0.1*shear + bending + 1e-8*beam + 1e-8*shell"}
+    model["loads"] = {"push": {"force": {"on": f"grid/n{half}_{half}", "value": [0, 0, 1], "signal": "push"}}}
+    return json.dumps(model)
+
+
 # Two shafts with bearings in the cube, which a cross connects.
 SHAFTS = CUBE.replace("bearing: {face: x0}", "bearing: {face: x0}, near: {face: y0}, far: {face: y1}").replace("joints: {", """\
   input: {rigid: {mass: 0.5 kg, inertia: [1e-4, 2e-4, 1e-4]}, at: {position: [0.05, -0.05, 0]}, markers: {end: {position: [0, 0.1, 0]}}}

@@ -2,10 +2,13 @@
 """Vectors of large bodies over several processes: those that have their rows work on them, and the first one gets sums."""
 
 import json
+import re
 
+import numpy
 import pytest
+import yaml
 
-from models_of_many_variables import BLOW, CUBE, FELT, SHAFTS, SHELL_SIDE, SHELLS, SIDE, SPUN, TWINS
+from models_of_many_variables import (BLOW, CUBE, FELT, SHAFTS, SHELL_SIDE, SHELLS, SIDE, SPUN, STRESSED, TWINS, stressed_grid)
 from mpi_runs import expect_same_energies, expect_same_stresses, mpirun, must, several, sets  # noqa: F401
 from test_solver import largest_difference, sensors
 
@@ -169,6 +172,51 @@ def test_signals_of_sensors_take_no_vectors(buckens, mpirun, tmp_path):
     pushed = sensors(tmp_path / "one")["push"]
     assert abs(pushed[-1] - pushed[0]) > 1e-3
     assert LEAST < per_solve < MOST
+
+
+def numbers_of_stresses(buckens, mpirun, tmp_path, text, name):
+    """What a step takes more than with signals of work, of which the first process keeps account in any case: messages, and bytes."""
+    other = yaml.safe_load(re.sub(r"\bon:", '"on":', text))  # a word for truth in YAML 1.1
+    of_elements = [name for name, kind in other["output"]["sensors"].items() if {"stress", "section-force"} & set(kind)]
+    for sensor in of_elements:
+        other["output"]["sensors"][sensor] = {"energy": "work"}
+    for signal in other["signals"].values():
+        if isinstance(signal, dict) and isinstance(signal["sensor"], dict):
+            signal["sensor"] = signal["sensor"]["of"]
+    found = []
+    for model in (json.dumps(other), text):
+        numbers, messages = of_further_steps(buckens, mpirun, tmp_path, model, f"bodies.{name}.coupling=none", times=("1 ms", "2 ms"))
+        dof = json.loads((tmp_path / "two" / "summary.json").read_text())["bodies"][name]["dof"]
+        found.append((messages, 8 * dof * numbers))
+    pushed = sensors(tmp_path / "one")["push"]
+    assert numpy.ptp(pushed) > 1e-3 * numpy.abs(pushed).max(), "what they read matters"
+    return [after - before for before, after in zip(*found, strict=True)]
+
+
+# An order, where a program begins, what it does, and whether it was done.
+PROGRAM_BYTES = 56 + 8 + 16 + 8
+
+
+@several
+@pytest.mark.parametrize("text, name, numbers", [(STRESSED, "cube", 3 * (2 * (SIDE + 1) ** 2 + 8)), (stressed_grid(), "grid", 6 * 6)],
+                         ids=["solids", "those whose nodes follow others"])
+def test_signals_of_stresses_take_the_numbers_of_their_elements(buckens, mpirun, tmp_path, text, name, numbers):
+    """One program, with a row there and a number back for each variable on which they depend."""
+    messages, size = numbers_of_stresses(buckens, mpirun, tmp_path, text, name)
+    assert messages == pytest.approx(3, abs=1e-9)
+    assert size == pytest.approx(PROGRAM_BYTES + 12 * numbers, abs=30)
+
+
+@several
+@pytest.mark.parametrize("text", [STRESSED, stressed_grid()], ids=["solids", "those whose nodes follow others"])
+def test_stresses_of_several_processes_are_read(buckens, mpirun, tmp_path, text):
+    """Elements are with two others, and so are the nodes of some."""
+    (tmp_path / "model.yaml").write_text(text)
+    changes = sets("simulation.duration=1 ms", "output.every=0.5 ms")
+    buckens("run", "model.yaml", "-o", "one", *changes).must(0)
+    must(mpirun(3, "run", "model.yaml", "-o", "three", *changes))
+    assert largest_difference(sensors(tmp_path / "three"), sensors(tmp_path / "one")) < 1e-9
+    expect_same_energies(tmp_path / "three", tmp_path / "one")
 
 
 @several

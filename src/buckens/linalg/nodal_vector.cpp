@@ -47,6 +47,21 @@ std::vector<Vector> NodalVector::row_products(std::initializer_list<const NodalV
   return out;
 }
 
+Vector NodalVector::some(std::span<const int> which) const {
+  if (shared_ != nullptr && shared_->is_elsewhere.load(std::memory_order_acquire)) {
+    RowProgram program(*shared_->of);
+    const RowProgram::Sums picked = program.pick(shared_->there, which);
+    program.run();
+    return program.sum(picked);
+  }
+  const Vector& numbers = whole();
+  Vector out(static_cast<Eigen::Index>(which.size()));
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    out[static_cast<Eigen::Index>(k)] = numbers[which[k]];
+  }
+  return out;
+}
+
 void NodalVector::bring() const {
   const std::scoped_lock lock(turn_to_bring());
   if (!shared_->is_elsewhere.load(std::memory_order_acquire)) return;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <initializer_list>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -84,6 +85,8 @@ class NodalVector {
   /// Products of the rows N of a body with some of its vectors, by one order, if other processes
   /// have all of them, so that they need not come here. Otherwise empty.
   static std::vector<Vector> row_products(std::initializer_list<const NodalVector*> vectors);
+  /// Some of the numbers. If other processes have them, only these come here, by one order.
+  Vector some(std::span<const int> which) const;
   Eigen::Index size() const;
   double operator[](Eigen::Index k) const { return whole()[k]; }
   double norm() const { return whole().norm(); }

@@ -9,6 +9,7 @@
 #include "buckens/linalg/grid_library.h"
 #include "buckens/linalg/put_off_work.h"
 #include "buckens/linalg/ranks.h"
+#include "buckens/linalg/row_order.h"
 
 namespace buckens::linalg {
 
@@ -113,6 +114,14 @@ RowProgram::Sums RowProgram::row_products(std::span<const DividedVector* const> 
   put_(static_cast<int>(vectors.size()));
   for (const DividedVector* x : vectors) put_(x->number());
   return expect(vectors.size() * static_cast<std::size_t>(of_->num_rows_));
+}
+
+RowProgram::Sums RowProgram::pick(const DividedVector& x, std::span<const int> variables) {
+  put_(RowTask::pick);
+  put_(x.number());
+  put_(static_cast<int>(variables.size()));
+  for (const int variable : variables) put_(of_->order_ ? of_->order_->row(variable) : variable);
+  return expect(variables.size());
 }
 
 RowProgram::Sums RowProgram::compare(const DividedVector& x, const DividedVector& before,

@@ -59,6 +59,8 @@ class RowProgram {
   Sums row_products(std::initializer_list<const DividedVector*> vectors) {
     return row_products(std::span(vectors.begin(), vectors.size()));
   }
+  /// x of some variables.
+  Sums pick(const DividedVector& x, std::span<const int> variables);
   /// kCompared sums. @param of_largest weights of the largest change
   Sums compare(const DividedVector& x, const DividedVector& before, const DividedVector& weights,
                const DividedVector& of_largest);

@@ -22,6 +22,7 @@ enum class RowTask : std::int32_t {
   subtract_load,  ///< f, kMotionNumbers: RowInertia::subtract_load
   add_row_loads,  ///< f, as many weights as N has rows: f ← f + Nᵀ weights
   row_products,   ///< count, x…: N x; as many sums per x as N has rows
+  pick,           ///< x, count, rows: x of these rows of the body; zeros of rows of others
   compare,        ///< x, x before, weights, weights of the largest: kCompared sums
   total,          ///< count, x…: the sum of all numbers; not finite if one of them is not
   square,         ///< x: Σ x²

@@ -91,6 +91,9 @@ void RowWorker::do_task(RowTask task, const Space& space, Take& take, RowPeers& 
     case RowTask::row_products:
       multiply_rows(space, take);
       break;
+    case RowTask::pick:
+      pick(space, take);
+      break;
     case RowTask::compare:
       compare(space, take);
       break;
@@ -176,6 +179,17 @@ void RowWorker::multiply_rows(const Space& space, Take& take) {
     const Eigen::Map<const Vector> x(at(take.next<int>()), N.cols());
     const Vector y = N * x;
     sums_.insert(sums_.end(), y.data(), y.data() + y.size());
+  }
+}
+
+void RowWorker::pick(const Space& space, Take& take) {
+  const double* x = at(take.next<int>());
+  const auto count = take.next<int>();
+  const int first = space.tables.width * space.tables.first;
+  const int end = first + static_cast<int>(space.rows());
+  for (int k = 0; k < count; ++k) {
+    const auto row = take.next<int>();
+    sums_.push_back(row >= first && row < end ? x[row - first] : 0.0);
   }
 }
 

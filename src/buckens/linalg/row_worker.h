@@ -76,6 +76,7 @@ class RowWorker {
   void couple(const Space& space, Take& take, RowPeers& peers);
   void add_row_loads(const Space& space, Take& take);
   void multiply_rows(const Space& space, Take& take);
+  void pick(const Space& space, Take& take);
   void compare(const Space& space, Take& take);
   void add_total(const Space& space, Take& take);
   void add_square(const Space& space, Take& take);

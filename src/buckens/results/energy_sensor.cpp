@@ -24,7 +24,7 @@ class EnergySensor final : public Sensor {
     return {{"sensors/" + name_, "J", {}, "energy of the whole model", {}}};
   }
   ObservedParts reads() const override {
-    return {false, kind_ != Kind::work && kind_ != Kind::dissipated};
+    return {kind_ != Kind::work && kind_ != Kind::dissipated, {}};
   }
   void append(const Observation& now, std::vector<double>& values) override {
     values.push_back(value(now));

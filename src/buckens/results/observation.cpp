@@ -1,10 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/results/observation.h"
 
+#include <algorithm>
+
 #include "buckens/dynamics/circumstances.h"
 #include "buckens/dynamics/summed_coordinate.h"
 
 namespace buckens::results {
+
+namespace {
+
+void add_numbers(const std::vector<int>& more, std::vector<int>& numbers) {
+  numbers.insert(numbers.end(), more.begin(), more.end());
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+Eigen::Index place_in(const std::vector<int>& numbers, int number) {
+  return std::lower_bound(numbers.begin(), numbers.end(), number) - numbers.begin();
+}
+
+}  // namespace
+
+ObservedParts& ObservedParts::operator|=(const ObservedParts& other) {
+  energies = energies || other.energies;
+  for (const auto& [body, more] : other.bodies) {
+    ObservedElements& own = bodies[body];
+    own.all = own.all || more.all;
+    add_numbers(more.lines, own.lines);
+    add_numbers(more.solids, own.solids);
+  }
+  return *this;
+}
+
+Eigen::Index Observation::column_of_line(int body, int element) const {
+  const auto some = columns.find(body);
+  return some == columns.end() ? element : place_in(some->second.lines, element);
+}
+
+Eigen::Index Observation::column_of_solid(int body, int element) const {
+  const auto some = columns.find(body);
+  return some == columns.end() ? element : place_in(some->second.solids, element);
+}
 
 using Eigen::Vector3d;
 

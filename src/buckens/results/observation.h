@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "buckens/dynamics/circumstances.h"
@@ -21,14 +22,21 @@ struct WorkBalance {
   linalg::Vector parts = {};
 };
 
-/// Parts of an observation that need all numbers of nodes.
-struct ObservedParts {
-  bool fields = false;    ///< nodal variables, section forces and stresses
-  bool energies = false;  ///< and the balance of work
+/// What is read of the mesh of a body: some of its elements, or everything.
+struct ObservedElements {
+  bool all = false;         ///< also the nodal variables
+  std::vector<int> lines;   ///< line elements, ascending: their section forces and stresses
+  std::vector<int> solids;  ///< solids and shells, ascending: their stresses
 
-  ObservedParts operator|(const ObservedParts& other) const {
-    return {fields || other.fields, energies || other.energies};
-  }
+  bool operator==(const ObservedElements& other) const = default;
+};
+
+/// Parts of an observation that need numbers of nodes.
+struct ObservedParts {
+  bool energies = false;                   ///< and the balance of work
+  std::map<int, ObservedElements> bodies;  ///< by index into Model::bodies
+
+  ObservedParts& operator|=(const ObservedParts& other);
 };
 
 /// Everything from which sensors and channels are computed at one instant.
@@ -47,6 +55,12 @@ struct Observation {
   std::vector<body::FrameMotion> wholes;  ///< frame of each whole body, see model::whole_motion
   double load_factor = 1;                 ///< of applied loads
   std::vector<double> signals;            ///< t and the values of all signals; empty without any
+  /// Bodies of whose elements the tables above have columns for some only: those.
+  std::map<int, ObservedElements> columns = {};
+
+  /// Columns of an element in `section_forces` and `stresses`, and in `solid_stresses`.
+  Eigen::Index column_of_line(int body, int element) const;
+  Eigen::Index column_of_solid(int body, int element) const;
 };
 
 /// What force laws see.

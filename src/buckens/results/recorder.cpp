@@ -37,14 +37,10 @@ bool are_in_tables(const model::Model& model) {
 
 Recorder::Recorder(const model::BuiltModel& built, const dynamics::MassMetric& metric,
                    bool has_redundant_joints)
-    : built_(built), metric_(metric), has_redundant_joints_(has_redundant_joints) {
-  for (const body::Body& body : built.model.bodies) {
-    recoveries_.push_back(
-        body.is_flexible() ? std::make_unique<fem::Recovery>(body.flexible->mesh()) : nullptr);
-    const bool has_solids = body.is_flexible() && fem::num_solids(body.flexible->mesh()) > 0;
-    solids_.push_back(has_solids ? std::make_unique<fem::SolidRecovery>(body.flexible->mesh())
-                                 : nullptr);
-  }
+    : built_(built),
+      metric_(metric),
+      has_redundant_joints_(has_redundant_joints),
+      meshes_(built.model) {
   for (std::size_t k = 0; k < built.description.output.sensors.size(); ++k) {
     sensors_.push_back(make_sensor(built, k));
   }
@@ -159,7 +155,7 @@ void Recorder::append_bodies(const Observation& now, std::vector<double>& values
       continue;
     }
     const auto b = static_cast<std::size_t>(whole.first);
-    if (!recoveries_[b]) continue;
+    if (!now.model.bodies[b].is_flexible()) continue;
     for (const auto& dofs : now.model.bodies[b].flexible->mesh().dofs.node_dofs) {
       for (const int dof : dofs) values.push_back(dof >= 0 ? now.nodal[b][dof] : 0.0);
     }
@@ -217,21 +213,6 @@ Observation Recorder::observe(const model::State& state, const WorkBalance& work
   return now;
 }
 
-void Recorder::add_fields(Observation& now) const {
-  const model::Model& model = built_.model;
-  now.nodal.resize(model.bodies.size());
-  now.section_forces.resize(model.bodies.size());
-  now.stresses.resize(model.bodies.size());
-  now.solid_stresses.resize(model.bodies.size());
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    if (!recoveries_[b]) continue;
-    now.nodal[b] = model.bodies[b].flexible->nodal(now.state.bodies[b].d);
-    now.section_forces[b] = recoveries_[b]->section_forces(now.nodal[b]);
-    now.stresses[b] = recoveries_[b]->stresses(now.section_forces[b]);
-    if (solids_[b]) now.solid_stresses[b] = solids_[b]->stresses(now.nodal[b]);
-  }
-}
-
 void Recorder::add_energies(const std::optional<dynamics::Energy>& energy, Observation& now) {
   now.energy = energy ? *energy : dynamics::energy(now.model, now.state);
   if (!started_) first_energy_ = now.energy.total();
@@ -246,9 +227,9 @@ void Recorder::start(const Observation& now) {
 std::vector<double> Recorder::read(const model::State& state, const WorkBalance& work,
                                    const std::vector<SensorValue>& values) {
   ObservedParts parts;
-  for (const SensorValue& value : values) parts = parts | sensors_[value.sensor]->reads();
+  for (const SensorValue& value : values) parts |= sensors_[value.sensor]->reads();
   Observation now = observe(state, work);
-  if (parts.fields) add_fields(now);
+  meshes_.add(parts, now);
   // The first energy is what balances refer to.
   if (parts.energies || !started_) add_energies({}, now);
   start(now);
@@ -268,7 +249,7 @@ std::size_t Recorder::find_component(std::size_t sensor, const model::Signal& si
 Record Recorder::record(const model::State& state, const WorkBalance& work,
                         const std::optional<dynamics::Energy>& energy) {
   Observation now = observe(state, work);
-  add_fields(now);
+  meshes_.add_all(now);
   add_energies(energy, now);
   Record record{state.t, {}};
   record.values.reserve(layout_.num_values());

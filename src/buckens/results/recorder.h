@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "buckens/dynamics/mass_metric.h"
-#include "buckens/fem/assembly/recovery.h"
-#include "buckens/fem/solid/recovery.h"
 #include "buckens/model/build/build_model.h"
+#include "buckens/results/mesh_observer.h"
 #include "buckens/results/record_sink.h"
 #include "buckens/results/sensor.h"
 
@@ -41,7 +40,7 @@ class Recorder {
   };
   /// Some values of sensors without the rest of a record. The first call sets the references of
   /// sensors, as that of record() does. Cost: products with M and K only for sensors of energies,
-  /// and those with the recovery rows only for sensors of stresses and section forces.
+  /// and those with all recovery rows of a body only for its largest stresses.
   std::vector<double> read(const model::State& state, const WorkBalance& work,
                            const std::vector<SensorValue>& values);
   /// Place of the value that a signal reads among those of a sensor.
@@ -63,7 +62,6 @@ class Recorder {
 
  private:
   Observation observe(const model::State& state, const WorkBalance& work);
-  void add_fields(Observation& now) const;
   void add_energies(const std::optional<dynamics::Energy>& energy, Observation& now);
   void start(const Observation& now);
   void add_channels();
@@ -77,8 +75,7 @@ class Recorder {
   const dynamics::MassMetric& metric_;
   bool has_redundant_joints_;
   RecordLayout layout_;
-  std::vector<std::unique_ptr<fem::Recovery>> recoveries_;
-  std::vector<std::unique_ptr<fem::SolidRecovery>> solids_;  // null where there are none
+  MeshObserver meshes_;
   std::vector<std::size_t> recorded_loads_;  // first of each name, indices into Model::loads
   std::vector<std::unique_ptr<Sensor>> sensors_;
   bool started_ = false;

@@ -237,10 +237,13 @@ class SectionForceSensor final : public Sensor {
              "section moments in element axes",
              {"Mt", "My", "Mz"}}};
   }
-  ObservedParts reads() const override { return {true, false}; }
+  ObservedParts reads() const override {
+    return {false, {{place_.body, {false, {place_.element}, {}}}}};
+  }
   void append(const Observation& now, std::vector<double>& values) override {
     const auto& forces = now.section_forces[static_cast<std::size_t>(place_.body)];
-    for (int k = 0; k < 6; ++k) values.push_back(forces(6 * place_.end + k, place_.element));
+    const Eigen::Index column = now.column_of_line(place_.body, place_.element);
+    for (int k = 0; k < 6; ++k) values.push_back(forces(6 * place_.end + k, column));
   }
 
  private:
@@ -251,19 +254,27 @@ class SectionForceSensor final : public Sensor {
 class StressSensor final : public Sensor {
  public:
   /// @param has_lines whether there are beams or bars, which alone have an axial stress
-  StressSensor(std::string name, const model::SensorPlace& place, bool has_lines)
-      : name_(std::move(name)), place_(place), has_lines_(has_lines) {}
+  StressSensor(std::string name, const model::SensorPlace& place, const model::WholeBody& whole,
+               bool has_lines)
+      : name_(std::move(name)), place_(place), whole_(whole), has_lines_(has_lines) {}
 
   std::vector<Channel> channels() const override {
     const std::string path = "sensors/" + name_;
     if (!has_lines_) return {{path, "Pa", {1}, "von Mises stress of solids", {"mises"}}};
     return {{path, "Pa", {2}, "largest axial and von Mises stress", {"axial", "mises"}}};
   }
-  ObservedParts reads() const override { return {true, false}; }
+  ObservedParts reads() const override {
+    if (place_.element >= 0) return {false, {{place_.body, {false, {place_.element}, {}}}}};
+    if (!place_.solids.empty()) return {false, {{place_.body, {false, {}, place_.solids}}}};
+    ObservedParts out;
+    for (int k = 0; k < whole_.count; ++k) out.bodies[whole_.first + k].all = true;
+    return out;
+  }
   void append(const Observation& now, std::vector<double>& values) override {
     if (place_.element >= 0) {
       const auto& stresses = now.stresses[static_cast<std::size_t>(place_.body)];
-      for (int k = 0; k < 2; ++k) values.push_back(stresses(k, place_.element));
+      const Eigen::Index column = now.column_of_line(place_.body, place_.element);
+      for (int k = 0; k < 2; ++k) values.push_back(stresses(k, column));
     } else if (!place_.solids.empty()) {
       values.push_back(mean_of_solids(now));
     } else {
@@ -276,14 +287,14 @@ class StressSensor final : public Sensor {
   double mean_of_solids(const Observation& now) const {
     const auto& stresses = now.solid_stresses[static_cast<std::size_t>(place_.body)];
     Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
-    for (const int e : place_.solids) sum += stresses.col(e).head<6>();
+    for (const int e : place_.solids) {
+      sum += stresses.col(now.column_of_solid(place_.body, e)).head<6>();
+    }
     return fem::mises_stress(sum / static_cast<double>(place_.solids.size()));
   }
   void append_largest(const Observation& now, std::vector<double>& values) const {
-    const auto w = static_cast<std::size_t>(now.model.whole_of(place_.body));
-    const model::WholeBody& whole = now.model.wholes[w];
     Eigen::Vector2d largest = Eigen::Vector2d::Zero();
-    for (int b = whole.first; b < whole.first + whole.count; ++b) {
+    for (int b = whole_.first; b < whole_.first + whole_.count; ++b) {
       const auto& lines = now.stresses[static_cast<std::size_t>(b)];
       const auto& solids = now.solid_stresses[static_cast<std::size_t>(b)];
       if (lines.cols() > 0) largest = largest.cwiseMax(lines.rowwise().maxCoeff());
@@ -295,6 +306,7 @@ class StressSensor final : public Sensor {
 
   std::string name_;
   model::SensorPlace place_;
+  const model::WholeBody& whole_;
   bool has_lines_;
 };
 
@@ -384,9 +396,10 @@ class Maker {
   }
   std::unique_ptr<Sensor> operator()(const model::StressSensor&) const {
     const auto w = static_cast<std::size_t>(built_.model.whole_of(place_.body));
-    const fem::FeModel* mesh = mesh_of(built_.model, built_.model.wholes[w]);
+    const model::WholeBody& whole = built_.model.wholes[w];
+    const fem::FeModel* mesh = mesh_of(built_.model, whole);
     const bool has_lines = place_.solids.empty() && !fem::line_elements(*mesh).empty();
-    return std::make_unique<StressSensor>(spec_.name, place_, has_lines);
+    return std::make_unique<StressSensor>(spec_.name, place_, whole, has_lines);
   }
   std::unique_ptr<Sensor> operator()(const model::LoadForceSensor& s) const {
     return make_load_sensor(built_, spec_, s.load, false, place_.markers);

@@ -21,8 +21,7 @@ class Sensor {
   virtual std::vector<Channel> channels() const = 0;
   /// Called once at t = 0, before the first append().
   virtual void start(const Observation& /*now*/) {}
-  /// What append() reads of an observation besides motions, forces of joints and work. It costs
-  /// products with matrices of meshes.
+  /// What append() reads of an observation besides motions, forces of joints and work.
   virtual ObservedParts reads() const { return {}; }
   /// Appends the values of all channels.
   virtual void append(const Observation& now, std::vector<double>& values) = 0;

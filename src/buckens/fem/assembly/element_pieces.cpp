@@ -14,6 +14,18 @@ namespace {
 constexpr int kElementsOfPiece = 1024;
 }  // namespace
 
+std::shared_ptr<const ElementBlock> some_elements(const ElementBlock& block,
+                                                  const std::vector<Node>& nodes,
+                                                  const std::vector<int>& elements) {
+  std::vector<int> same_nodes(nodes.size());
+  std::iota(same_nodes.begin(), same_nodes.end(), 0);
+  if (const auto* solids = dynamic_cast<const SolidBlock*>(&block)) {
+    return std::make_shared<const SolidBlock>(solids->subset(elements, same_nodes));
+  }
+  const auto& shells = dynamic_cast<const ShellBlock&>(block);
+  return std::make_shared<const ShellBlock>(shells.subset(elements, same_nodes));
+}
+
 void visit_pieces(const ElementBlock& block, const std::vector<Node>& nodes,
                   const std::function<void(const ElementBlock& piece, int first)>& visit) {
   const auto* solids = dynamic_cast<const SolidBlock*>(&block);

@@ -12,6 +12,8 @@ namespace buckens::fem {
 
 namespace {
 
+constexpr int kRowsOfLine = 12;
+
 struct EndStress {
   double normal = 0;
   double mises = 0;
@@ -93,7 +95,7 @@ Recovery::Recovery(const FeModel& fe) {
       at_ends_.push_back({index, sections_.size() - 1});
     }
   }
-  rows_.resize(Eigen::Index{12} * num_elements(), fe.dofs.num_dofs);
+  rows_.resize(Eigen::Index{kRowsOfLine} * num_elements(), fe.dofs.num_dofs);
   rows_.setFromTriplets(triplets.begin(), triplets.end());
 }
 
@@ -103,15 +105,45 @@ linalg::Matrix Recovery::section_forces(const linalg::Vector& d) const {
   return forces;
 }
 
+Eigen::Vector2d Recovery::stresses_of(
+    std::size_t element, const Eigen::Ref<const linalg::Vector>& section_forces) const {
+  const auto [first, last] = at_ends_[element];
+  const EndStress a = end_stress(sections_[first], section_forces.head<6>());
+  const EndStress b = end_stress(sections_[last], section_forces.tail<6>());
+  return {std::max(a.normal, b.normal), std::max(a.mises, b.mises)};
+}
+
 linalg::Matrix Recovery::stresses(const linalg::Matrix& section_forces) const {
   linalg::Matrix out(2, section_forces.cols());
-  for (Eigen::Index e = 0; e < section_forces.cols(); ++e) {
-    const auto [first, last] = at_ends_[static_cast<std::size_t>(e)];
-    const EndStress a = end_stress(sections_[first], section_forces.col(e).head<6>());
-    const EndStress b = end_stress(sections_[last], section_forces.col(e).tail<6>());
-    out(0, e) = std::max(a.normal, b.normal);
-    out(1, e) = std::max(a.mises, b.mises);
+  for (Eigen::Index e = 0; e < out.cols(); ++e) {
+    out.col(e) = stresses_of(static_cast<std::size_t>(e), section_forces.col(e));
   }
+  return out;
+}
+
+linalg::Matrix Recovery::stresses(const linalg::Matrix& section_forces,
+                                  std::span<const int> elements) const {
+  linalg::Matrix out(2, section_forces.cols());
+  for (Eigen::Index k = 0; k < out.cols(); ++k) {
+    const int element = elements[static_cast<std::size_t>(k)];
+    out.col(k) = stresses_of(static_cast<std::size_t>(element), section_forces.col(k));
+  }
+  return out;
+}
+
+linalg::SparseRows::RowMajor Recovery::rows_of(std::span<const int> elements) const {
+  std::vector<linalg::Triplet> entries;
+  int row = 0;
+  for (const int element : elements) {
+    for (int k = 0; k < kRowsOfLine; ++k, ++row) {
+      using Entries = linalg::SparseRows::RowMajor::InnerIterator;
+      for (Entries it(rows_, Eigen::Index{kRowsOfLine} * element + k); it; ++it) {
+        entries.emplace_back(row, static_cast<int>(it.col()), it.value());
+      }
+    }
+  }
+  linalg::SparseRows::RowMajor out(row, rows_.cols());
+  out.setFromTriplets(entries.begin(), entries.end());
   return out;
 }
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "buckens/fem/element/block.h"
 #include "buckens/fem/fe_model.h"
+#include "buckens/linalg/sparse_rows.h"
 
 namespace buckens::fem {
 
@@ -52,9 +54,17 @@ class Recovery {
   /// the largest |σ_x| over the section's stress points, row 1 a von Mises stress from that and the
   /// sum of the largest torsional and shear stresses (conservative).
   linalg::Matrix stresses(const linalg::Matrix& section_forces) const;
+  /// The same of some elements. @param section_forces of these, one after the other
+  linalg::Matrix stresses(const linalg::Matrix& section_forces,
+                          std::span<const int> elements) const;
+  /// Rows over the nodal variables that give the section forces of some elements.
+  linalg::SparseRows::RowMajor rows_of(std::span<const int> elements) const;
 
  private:
-  Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;
+  Eigen::Vector2d stresses_of(std::size_t element,
+                              const Eigen::Ref<const linalg::Vector>& section_forces) const;
+
+  linalg::SparseRows::RowMajor rows_;
   std::vector<Section> sections_;
   std::vector<std::array<std::size_t, 2>> at_ends_;  // sections at the ends of each element
 };

@@ -93,6 +93,22 @@ linalg::SparseRows stress_rows(const Blocks& blocks, const MeshView& mesh, const
           }};
 }
 
+linalg::SparseRows::RowMajor stress_rows_of(const Blocks& blocks, const MeshView& mesh,
+                                            const std::vector<int>& elements) {
+  Blocks some;
+  int first = 0;
+  visit_stressed(blocks, [&](const ElementBlock& block, int, int) {
+    std::vector<int> own;
+    for (const int element : elements) {
+      if (element >= first && element < first + block.num_elements())
+        own.push_back(element - first);
+    }
+    first += block.num_elements();
+    if (!own.empty()) some.push_back(some_elements(block, mesh.nodes, own));
+  });
+  return rows_of_this_process(some, mesh);
+}
+
 linalg::SharedRowOrder stress_row_order(const Blocks& blocks, const NodeParts& parts) {
   if (parts.empty()) return nullptr;
   std::vector<int> of_rows;

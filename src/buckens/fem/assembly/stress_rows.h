@@ -21,6 +21,12 @@ namespace buckens::fem {
 linalg::SparseRows stress_rows(const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
                                const MeshView& mesh, const NodeParts& parts);
 
+/// The rows of some elements only, numbered through solids, then shells, made here.
+/// @param elements ascending
+linalg::SparseRows::RowMajor stress_rows_of(
+    const std::vector<std::shared_ptr<const ElementBlock>>& blocks, const MeshView& mesh,
+    const std::vector<int>& elements);
+
 /// The order in which processes have these rows; null: each has a run of them.
 linalg::SharedRowOrder stress_row_order(
     const std::vector<std::shared_ptr<const ElementBlock>>& blocks, const NodeParts& parts);

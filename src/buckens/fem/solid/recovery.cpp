@@ -120,20 +120,24 @@ SolidRecovery::SolidRecovery(const FeModel& fe)
   }
 }
 
-linalg::Matrix SolidRecovery::stresses(const linalg::Vector& d) const {
-  const linalg::Vector values = rows_ * d;
-  linalg::Matrix out(7, num_elements());
-  for (Eigen::Index e = 0; e < num_solids_; ++e) {
-    out.col(e).head<6>() = values.segment<6>(6 * e);
-    out(kMises, e) = mises_stress(values.segment<6>(6 * e));
+linalg::Matrix stresses_of_rows(const linalg::Vector& products, Eigen::Index solids,
+                                Eigen::Index shells) {
+  linalg::Matrix out(7, solids + shells);
+  for (Eigen::Index e = 0; e < solids; ++e) {
+    out.col(e).head<6>() = products.segment<6>(6 * e);
+    out(kMises, e) = mises_stress(products.segment<6>(6 * e));
   }
-  for (Eigen::Index e = 0; e < num_shells_; ++e) {
-    const Eigen::Index first = 6 * num_solids_ + 12 * e;
-    out.col(num_solids_ + e).head<6>() = values.segment<6>(first);
-    out(kMises, num_solids_ + e) = std::max(mises_stress(values.segment<6>(first)),
-                                            mises_stress(values.segment<6>(first + 6)));
+  for (Eigen::Index e = 0; e < shells; ++e) {
+    const Eigen::Index first = 6 * solids + 12 * e;
+    out.col(solids + e).head<6>() = products.segment<6>(first);
+    out(kMises, solids + e) = std::max(mises_stress(products.segment<6>(first)),
+                                       mises_stress(products.segment<6>(first + 6)));
   }
   return out;
+}
+
+linalg::Matrix SolidRecovery::stresses(const linalg::Vector& d) const {
+  return stresses_of_rows(rows_ * d, num_solids_, num_shells_);
 }
 
 }  // namespace buckens::fem

@@ -34,6 +34,10 @@ inline constexpr int kMises = 6;
 /// Von Mises stress of σ_xx, σ_yy, σ_zz, τ_xy, τ_yz, τ_zx.
 double mises_stress(const Eigen::Ref<const Eigen::Matrix<double, 6, 1>>& s);
 
+/// The table of SolidRecovery::stresses from products with the rows of elements (stress_rows.h).
+linalg::Matrix stresses_of_rows(const linalg::Vector& products, Eigen::Index solids,
+                                Eigen::Index shells);
+
 /// Stresses of all solid elements at once, at their centres, where those of trilinear elements are
 /// most accurate. For shells, which are numbered after them, stresses of both sides.
 class SolidRecovery {

@@ -35,6 +35,14 @@ TEST(NodalVector, CopiesOfLongVectorsShareMemoryUntilOneIsWrittenTo) {
   EXPECT_FALSE(a.is_shared() || b.is_shared() || c.is_shared());
 }
 
+TEST(NodalVector, GivesSomeOfItsNumbers) {
+  for (const Eigen::Index size : {kShort, kLong}) {
+    const NodalVector a = counted(size);
+    EXPECT_EQ(a.some(std::vector{5, 0, 61}), (Vector(3) << 6, 1, 62).finished());
+    EXPECT_EQ(a.some({}).size(), 0);
+  }
+}
+
 TEST(NodalVector, ShortVectorsAreCopiedIntoTheMemoryThatIsThere) {
   const NodalVector a = counted(kShort);
   NodalVector b = 2 * counted(kShort);

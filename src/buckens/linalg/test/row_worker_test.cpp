@@ -179,6 +179,22 @@ TEST_P(RowsOfABody, MultipliesByInterfaceRows) {
   EXPECT_LE((sums.tail(5) - N * acceleration).norm(), kOfOtherOrder);
 }
 
+TEST_P(RowsOfABody, PicksNumbersOfAnyRows) {
+  const std::vector<int> variables = {0, size() - 1, 3 * (nodes() / 2), 4, 3 * (nodes() / 5) - 1,
+                                      4};
+  base::BytesTo put = program(RowTask::pick, 1, static_cast<int>(variables.size()));
+  for (const int variable : variables) put(order ? order->row(variable) : variable);
+  put(RowTask::square);
+  put(0);
+  const Vector sums = total(run(put));
+  ASSERT_EQ(sums.size(), 7);
+  // One of them has the number, and the others add zeros.
+  for (std::size_t k = 0; k < variables.size(); ++k) {
+    EXPECT_EQ(sums[static_cast<Eigen::Index>(k)], rate[variables[k]]) << k;
+  }
+  EXPECT_NEAR(sums[6], d.squaredNorm(), kOfOtherOrder * sums[6]);
+}
+
 TEST_P(RowsOfABody, ComparesAndTotals) {
   put(4, random(4).cwiseAbs());
   const Vector weights = whole(4);

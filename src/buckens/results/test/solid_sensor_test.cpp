@@ -90,6 +90,56 @@ TEST(SolidSensors, DividedBlocksRecordElementsInTheOrderOfTheWhole) {
   EXPECT_NEAR(three.sensor("all")[0], expected.maxCoeff(), 1e-10 * expected.maxCoeff());
 }
 
+/// Stresses of all, of one element, around a node and around an interface.
+Described read_block() {
+  Described m = sensed_block();
+  m.sensor_of<model::StressSensor>("fifth", "block").element = 5;
+  body::InterfaceSpec interface;
+  interface.name = "end";
+  interface.where = model::test::at_line(45);
+  interface.region = fem::NamedFaceSpec{model::test::at_line(46), "x1"};
+  m.d.bodies[0].interfaces.push_back(interface);
+  m.sensor_of<model::StressSensor>("end", "block/end");
+  return m;
+}
+
+/// That each sensor, and all of them together, are read with the bits of a record.
+void expect_bits_of_records(const Described& m) {
+  Recorded run(m);
+  for (std::size_t b = 0; b < run.state.bodies.size(); ++b) {
+    linalg::Vector& d = run.body(b).d.change();
+    for (Eigen::Index k = 0; k < d.size(); ++k) d[k] = 1e-4 * std::sin(static_cast<double>(7 * k));
+  }
+  run.record();
+  const std::vector<std::string> names = {"all", "first", "middle", "fifth", "end"};
+  std::vector<Recorder::SensorValue> every;
+  std::vector<double> recorded;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    recorded.push_back(run.sensor(names[k])[0]);
+    EXPECT_GT(recorded[k], 0.0) << names[k];
+    every.push_back({k, 0});
+    EXPECT_THAT(run.recorder.read(run.state, {}, {{k, 0}}), testing::ElementsAre(recorded[k]))
+        << names[k];
+  }
+  EXPECT_EQ(run.recorder.read(run.state, {}, every), recorded);
+  every.erase(every.begin());
+  recorded.erase(recorded.begin());
+  EXPECT_EQ(run.recorder.read(run.state, {}, every), recorded) << "without the largest";
+}
+
+TEST(SolidSensors, AreReadAsTheyAreRecorded) {
+  Described m = read_block();
+  expect_bits_of_records(m);
+  // Nodes that follow others, parts with frames of their own, and modes.
+  m.d.bodies[0].interfaces[0].kind = body::InterfaceKind::rigid;
+  expect_bits_of_records(m);
+  m.d.bodies[0].frames.count = 2;
+  expect_bits_of_records(m);
+  m.d.bodies[0].frames.count = 1;
+  m.d.bodies[0].reduction.free_free.emplace().modes = 12;
+  expect_bits_of_records(m);
+}
+
 TEST(SolidSensors, GeometryIsTheSurface) {
   Recorded run(sensed_block());
   const GeometryBody body = run.recorder.geometry().bodies.at(0);
