@@ -186,6 +186,18 @@ loads: {push: {force: {on: cube/corner_111, value: [0, 1 N, 0], signal: push}}}
 simulation:""").replace("sensors: {", """sensors: {at_node: {stress: cube/corner_011}, alone: {stress: {of: cube, element: 500}}, around: {stress: cube/bearing},
     near: {position: cube/corner_011}, push: {signal: push}, """)
 
+# Forces that the largest stress of all elements drives.
+LARGEST = CUBE.replace("simulation:", """\
+signals: {largest: {sensor: largest}, push: "20 + 1e-6*largest"}
+loads: {push: {force: {on: cube/corner_111, value: [0, 1 N, 0], signal: push}}}
+simulation:""").replace("sensors: {", "sensors: {largest: {stress: cube}, push: {signal: push}, ")
+LARGEST_AND_ONE = LARGEST.replace("push:", "alone: {sensor: alone}, push:", 1).replace("1e-6*largest", "1e-6*largest - 1e-3*alone").replace(
+    "{stress: cube}", "{stress: cube}, alone: {stress: {of: cube, element: 500}}")
+LARGEST_OF_SHELLS = SHELLS.replace("simulation:", """\
+signals: {largest: {sensor: largest}, push: "1 + 1e-7*largest"}
+loads: {push: {force: {on: plate/corner_11, value: [0, 0, 1 N], signal: push}}}
+simulation:""").replace("sensors: {", "sensors: {largest: {stress: plate}, push: {signal: push}, ")
+
 
 def stressed_grid():
     """One that section forces and stresses drive of elements whose nodes follow others, among them a shell."""

@@ -8,7 +8,8 @@ import numpy
 import pytest
 import yaml
 
-from models_of_many_variables import (BLOW, CUBE, FELT, SHAFTS, SHELL_SIDE, SHELLS, SIDE, SPUN, STRESSED, TWINS, stressed_grid)
+from models_of_many_variables import (BLOW, CUBE, FELT, LARGEST, LARGEST_AND_ONE, LARGEST_OF_SHELLS, SHAFTS, SHELL_SIDE, SHELLS, SIDE, SPUN,
+                                      STRESSED, TWINS, stressed_grid)
 from mpi_runs import expect_same_energies, expect_same_stresses, mpirun, must, several, sets  # noqa: F401
 from test_solver import largest_difference, sensors
 
@@ -208,7 +209,17 @@ def test_signals_of_stresses_take_the_numbers_of_their_elements(buckens, mpirun,
 
 
 @several
-@pytest.mark.parametrize("text", [STRESSED, stressed_grid()], ids=["solids", "those whose nodes follow others"])
+@pytest.mark.parametrize("text, name", [(LARGEST, "cube"), (LARGEST_OF_SHELLS, "plate")], ids=["solids", "shells"])
+def test_signals_of_the_largest_stress_take_one_number(buckens, mpirun, tmp_path, text, name):
+    """The others have the stresses, and numbers beside theirs, and find the largest."""
+    messages, size = numbers_of_stresses(buckens, mpirun, tmp_path, text, name)
+    assert messages == pytest.approx(3, abs=1e-9)
+    assert size == pytest.approx(PROGRAM_BYTES + 36 * 8 + 8, abs=30)
+
+
+@several
+@pytest.mark.parametrize("text", [STRESSED, stressed_grid(), LARGEST, LARGEST_OF_SHELLS, LARGEST_AND_ONE],
+                         ids=["solids", "those whose nodes follow others", "largest", "largest of shells", "largest and one"])
 def test_stresses_of_several_processes_are_read(buckens, mpirun, tmp_path, text):
     """Elements are with two others, and so are the nodes of some."""
     (tmp_path / "model.yaml").write_text(text)

@@ -192,9 +192,12 @@ class Ranks {
   void describe_modes(const Order& order, const BuckensGridModes& modes, Way& way,
                       std::vector<double>& inertia, ModeProblem& problem);
   void multiply_among_others(int matrix, const double* x, double* y);
+  void multiply_rows_among_others(Divided& A, const double* x);
   static void exchange_numbers(void* context, const int* out_counts, const double* out,
                                const int* in_counts, double* in);
   static int multiply_here(void* context, int matrix, const double* x, double* y);
+  static int multiply_rows_here(void* context, int matrix, int number, int is_new, const int* rows,
+                                const double* x, const double** y, int* count);
   static void find_pairs(void* context, int number, float** loads, float** answers);
   bool has_failed_somewhere(bool has_failed);
 

@@ -131,7 +131,8 @@ struct Ranks::Divided {
   std::vector<int> variables;      // ascending; of a symmetric one they begin with the columns here
   // Of the first process: `variables` of all, one process after the other.
   std::vector<int> lists, list_first, list_counts;
-  // Of the others: to `variables` behind the columns here; null before it is used.
+  // Of the others: of a symmetric matrix to `variables` behind the columns here, of others to all
+  // of them, from the rows of vectors; null before it is used.
   std::unique_ptr<Way> way;
 
   /// Numbers that a process adds to a product, there.

@@ -141,4 +141,13 @@ void Ranks::multiply_among_others(int matrix, const double* x, double* y) {
   A.way->give_back(products.data() + here, y, true);
 }
 
+/// The rows of A x here go to `results`.
+void Ranks::multiply_rows_among_others(Divided& A, const double* x) {
+  std::vector<double>& all = shared_->share;
+  all.resize(A.variables.size());
+  A.way->bring(x, all.data());
+  shared_->results.assign(static_cast<std::size_t>(A.counts[rank_]), 0.0);
+  A.add_rows(A.counts[rank_], all.data(), shared_->results.data());
+}
+
 }  // namespace buckens_petsc

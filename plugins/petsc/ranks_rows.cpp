@@ -36,6 +36,24 @@ int Ranks::multiply_here(void* context, int matrix, const double* x, double* y) 
   return is_done ? 0 : 1;
 }
 
+int Ranks::multiply_rows_here(void* context, int matrix, int number, int is_new, const int* rows,
+                              const double* x, const double** y, int* count) {
+  Ranks& own = *static_cast<Ranks*>(context);
+  Divided& A = *own.shared_->matrices.at(matrix);
+  const bool is_done = has_memory_for([&] {
+    if (is_new != 0) {
+      std::vector<int> wanted = A.variables;
+      for (int& row : wanted) row = rows != nullptr ? rows[row] : row;
+      const Runs& runs = own.shared_->runs.at(number);
+      A.way = std::make_unique<Way>(wanted, runs.first.data() + 1, own.others_);
+    }
+    own.multiply_rows_among_others(A, x);
+  });
+  *y = own.shared_->results.data();
+  *count = A.counts[own.rank_];
+  return is_done ? 0 : 1;
+}
+
 void Ranks::find_pairs(void* context, int number, float** loads, float** answers) {
   const Pairs& pairs = *static_cast<Ranks*>(context)->shared_->pairs.at(number);
   *loads = pairs.loads.get();
@@ -97,7 +115,8 @@ bool Ranks::work_rows_together(const Order& order, const void* program, double* 
   const double* own = nullptr;
   long num_sums = 0;
   std::array<char, kReason> error{};
-  const BuckensGridPeers peers{exchange_numbers, multiply_here, find_pairs, this};
+  const BuckensGridPeers peers{exchange_numbers, multiply_here, multiply_rows_here, find_pairs,
+                               this};
   const bool is_done = maker_.work_rows(bytes.data(), order.bytes, &peers, &own, &num_sums,
                                         error.data(), kReason) == 0;
   // One number more tells whether that went well, so that nobody waits for an answer.

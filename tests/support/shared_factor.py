@@ -14,7 +14,7 @@ INT, DOUBLE, FLOAT = (ctypes.POINTER(kind) for kind in (ctypes.c_int, ctypes.c_d
 
 
 # Of src/buckens/linalg/grid_plugin.h, whose structures stand below.
-VERSION = 12
+VERSION = 13
 
 
 class Columns(ctypes.Structure):

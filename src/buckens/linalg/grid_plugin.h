@@ -7,7 +7,7 @@
 extern "C" {
 
 /// Rises with every change of what stands here.
-enum { kBuckensGridVersion = 12 };
+enum { kBuckensGridVersion = 13 };
 
 /// Products that one order may ask for.
 enum { kBuckensMostProducts = 8 };
@@ -105,6 +105,13 @@ struct BuckensGridPeers {
   /// y = A x of a divided symmetric matrix, given and returned by the rows of each; all call it
   /// together. @return not zero if memory is too small
   int (*multiply)(void* context, int matrix, const double* x, double* y);
+  /// y = A x of the rows here of a matrix of rows, by those of a vector of the body `number`; all
+  /// call it together. `y` lives until the next product.
+  /// @param is_new whether they have not multiplied vectors of this body by it before; then, and
+  /// only then, `rows` is read: rows of the vector for the columns of A; null: the same numbers
+  /// @return not zero if memory is too small
+  int (*multiply_rows)(void* context, int matrix, int number, int is_new, const int* rows,
+                       const double* x, const double** y, int* count);
   /// The rows here of pairs that make_pairs() has made room for, each one behind the other.
   void (*pairs)(void* context, int number, float** loads, float** answers);
   void* context;

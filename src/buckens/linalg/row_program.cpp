@@ -10,6 +10,7 @@
 #include "buckens/linalg/put_off_work.h"
 #include "buckens/linalg/ranks.h"
 #include "buckens/linalg/row_order.h"
+#include "buckens/linalg/sparse_rows.h"
 
 namespace buckens::linalg {
 
@@ -149,6 +150,23 @@ RowProgram::Sums RowProgram::inner_product(const DividedVector& x, const Divided
   put_(RowTask::inner_product);
   put_(x.number());
   put_(y.number());
+  return expect(1);
+}
+
+RowProgram::Sums RowProgram::largest_norm(const SparseRows& A, const DividedVector& x,
+                                          const Matrix& F) {
+  put_(RowTask::largest_norm);
+  put_(x.number());
+  const auto [number, is_new] = A.number_for(of_->number_);
+  put_(number);
+  put_(is_new);
+  std::vector<int> rows;
+  if (is_new && of_->order_) rows = of_->order_->rows();
+  put_(static_cast<int>(rows.size()));
+  put_.all(rows.data(), rows.size());
+  put_(static_cast<int>(F.rows()));
+  put_(static_cast<int>(F.cols()));
+  put_.all(F.data(), static_cast<std::size_t>(F.size()));
   return expect(1);
 }
 

@@ -14,6 +14,7 @@
 namespace buckens::linalg {
 
 class DividedMatrix;
+class SparseRows;
 
 /// Work on vectors, written down task by task and then done at once by all processes.
 class RowProgram {
@@ -70,6 +71,9 @@ class RowProgram {
   Sums square(const DividedVector& x);
   /// Σ x y
   Sums inner_product(const DividedVector& x, const DividedVector& y);
+  /// ‖F y‖² of the runs of y = A x that F has columns for: most() gives the largest. @pre no run is
+  /// divided
+  Sums largest_norm(const SparseRows& A, const DividedVector& x, const Matrix& F);
   /// x times or divided by weights, row by row.
   DividedVector scale(const DividedVector& x, const DividedVector& weights, bool divides);
 

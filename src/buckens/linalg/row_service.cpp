@@ -25,6 +25,15 @@ class Peers final : public RowPeers {
   void multiply(int matrix, const double* x, double* y) override {
     if (peers_->multiply(peers_->context, matrix, x, y) != 0) throw std::bad_alloc();
   }
+  std::span<const double> multiply(const RowsOfBody& A, const double* x) override {
+    const double* y = nullptr;
+    int count = 0;
+    const int* rows = A.rows.empty() ? nullptr : A.rows.data();
+    if (peers_->multiply_rows(peers_->context, A.matrix, A.space, A.is_new, rows, x, &y, &count)) {
+      throw std::bad_alloc();
+    }
+    return {y, static_cast<std::size_t>(count)};
+  }
   Pairs pairs(int number) override {
     Pairs out{};
     peers_->pairs(peers_->context, number, &out.loads, &out.answers);

@@ -27,6 +27,7 @@ enum class RowTask : std::int32_t {
   total,          ///< count, x…: the sum of all numbers; not finite if one of them is not
   square,         ///< x: Σ x²
   inner_product,  ///< x, y: Σ x y
+  largest_norm,   ///< x, A, is new, count, rows, shape of F, F: largest ‖F y‖² of runs of A x
   scale,          ///< y, x, w, divides: y ← w x or x/w, row by row
   // Of kept pairs (c, x), by their number, the first of them and how many:
   pair_products,    ///< …, r: cᵢᵀ r, as many sums as pairs

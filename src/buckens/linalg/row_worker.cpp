@@ -19,6 +19,7 @@ std::size_t place(int number) { return static_cast<std::size_t>(number); }
 
 void RowWorker::add(int space, RowTables tables) {
   auto made = std::make_unique<Space>();
+  made->number = space;
   made->tables = std::move(tables);
   made->inertia = row_inertia(made->tables);
   spaces_[space] = std::move(made);
@@ -52,6 +53,14 @@ double* RowWorker::make_room(const Space& space, int vector) {
   return own.numbers.data();
 }
 
+void RowWorker::drop(int vector) {
+  const auto own = vectors_.find(vector);
+  if (own == vectors_.end()) return;
+  if (spare_.size() == kMostSpare) spare_.erase(spare_.begin());
+  spare_.push_back(std::move(own->second.numbers));
+  vectors_.erase(own);
+}
+
 std::span<const double> RowWorker::work(std::span<const std::byte> program, RowPeers& peers) {
   sums_.clear();
   Take take(program);
@@ -71,14 +80,9 @@ void RowWorker::do_task(RowTask task, const Space& space, Take& take, RowPeers& 
   switch (task) {
     case RowTask::space:
       break;
-    case RowTask::drop: {
-      const auto own = vectors_.find(take.next<int>());
-      if (own == vectors_.end()) break;
-      if (spare_.size() == kMostSpare) spare_.erase(spare_.begin());
-      spare_.push_back(std::move(own->second.numbers));
-      vectors_.erase(own);
+    case RowTask::drop:
+      drop(take.next<int>());
       break;
-    }
     case RowTask::combine:
       combine(space, take);
       break;
@@ -105,6 +109,9 @@ void RowWorker::do_task(RowTask task, const Space& space, Take& take, RowPeers& 
       break;
     case RowTask::inner_product:
       add_inner_product(space, take);
+      break;
+    case RowTask::largest_norm:
+      find_largest_norm(space, take, peers);
       break;
     case RowTask::scale:
       scale(space, take);
@@ -238,6 +245,24 @@ void RowWorker::add_inner_product(const Space& space, Take& take) {
   const Eigen::Map<const Vector> x(at(take.next<int>()), n);
   const Eigen::Map<const Vector> y(at(take.next<int>()), n);
   sums_.push_back(x.dot(y));
+}
+
+void RowWorker::find_largest_norm(const Space& space, Take& take, RowPeers& peers) {
+  const double* x = at(take.next<int>());
+  RowPeers::RowsOfBody A{take.next<int>(), space.number, take.next<bool>(), {}};
+  A.rows.resize(place(take.next<int>()));
+  take.take_all(A.rows.data(), A.rows.size());
+  const auto rows = take.next<int>();
+  Matrix F(rows, take.next<int>());
+  take.take_all(F.data(), place(static_cast<int>(F.size())));
+  const std::span<const double> y = peers.multiply(A, x);
+  const auto length = static_cast<std::size_t>(F.cols());
+  double largest = 0;
+  for (std::size_t k = 0; k + length <= y.size(); k += length) {
+    const Eigen::Map<const Vector> run(y.data() + k, F.cols());
+    largest = std::max(largest, (F * run).squaredNorm());
+  }
+  sums_.push_back(largest);
 }
 
 void RowWorker::scale(const Space& space, Take& take) {

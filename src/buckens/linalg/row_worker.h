@@ -24,6 +24,14 @@ class RowPeers {
   /// y = A x of the rows that they have, A a divided matrix with the same runs of rows. All call it
   /// together.
   virtual void multiply(int matrix, const double* x, double* y) = 0;
+  /// A matrix of rows (SparseRows), multiplied by vectors of a body.
+  struct RowsOfBody {
+    int matrix, space;
+    bool is_new;            ///< to each other; then `rows` is read
+    std::vector<int> rows;  ///< of the vector for the columns of the matrix; empty: the same
+  };
+  /// Its products that are here, until the next call. All call it together.
+  virtual std::span<const double> multiply(const RowsOfBody& A, const double* x) = 0;
   /// Rows here of kept pairs (DividedPairs), each one behind the other.
   struct Pairs {
     float *loads, *answers;
@@ -53,6 +61,7 @@ class RowWorker {
 
  private:
   struct Space {
+    int number = 0;
     RowTables tables;
     std::unique_ptr<RowInertia> inertia;
     std::size_t width() const { return static_cast<std::size_t>(tables.width); }
@@ -68,6 +77,7 @@ class RowWorker {
 
   Held& held(int vector) { return vectors_.at(vector); }
   double* at(int vector) { return held(vector).numbers.data(); }
+  void drop(int vector);
   double* make_room(const Space& space, int vector);
   void do_task(RowTask task, const Space& space, Take& take, RowPeers& peers);
   void combine(const Space& space, Take& take);
@@ -81,6 +91,7 @@ class RowWorker {
   void add_total(const Space& space, Take& take);
   void add_square(const Space& space, Take& take);
   void add_inner_product(const Space& space, Take& take);
+  void find_largest_norm(const Space& space, Take& take, RowPeers& peers);
   void scale(const Space& space, Take& take);
   void do_inertia(RowTask task, const Space& space, Take& take, RowPeers& peers);
   void do_pairs(RowTask task, const Space& space, Take& take, RowPeers& peers);

@@ -2,6 +2,7 @@
 #include "buckens/linalg/sparse_rows.h"
 
 #include <array>
+#include <cmath>
 #include <mutex>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "buckens/linalg/grid_library.h"
 #include "buckens/linalg/ranks.h"
 #include "buckens/linalg/row_order.h"
+#include "buckens/linalg/row_program.h"
 
 namespace buckens::linalg {
 
@@ -48,6 +50,12 @@ class SparseRows::Elsewhere {
                  [&](double* of_rows) { grid_solver().multiply(1, &number_, &x, &of_rows); });
   }
 
+  /// Whether processes have whole runs of rows that belong together.
+  bool has_runs() const { return order_ != nullptr || Ranks::count() == 2; }
+  std::pair<int, bool> number_for(int space) const {
+    return {number_, std::exchange(space_, space) != space};
+  }
+
  private:
   struct Wish {
     Eigen::Index rows, columns;
@@ -69,6 +77,7 @@ class SparseRows::Elsewhere {
 
   SharedRowOrder order_;
   int number_ = -1;
+  mutable int space_ = -1;  // of the body whose vectors it multiplied last
 };
 
 SparseRows::SparseRows(RowMajor&& A) : rows_(A.rows()) {
@@ -89,6 +98,19 @@ Vector SparseRows::operator*(const Vector& x) const {
   Vector y(rows_);
   elsewhere_->multiply(x.data(), y.data());
   return y;
+}
+
+std::optional<double> SparseRows::largest_norm(const NodalVector& x, const Matrix& F) const {
+  const std::shared_ptr<DividedVectors> of = x.others();
+  if (!elsewhere_ || !of || !elsewhere_->has_runs()) return std::nullopt;
+  RowProgram program(*of);
+  const RowProgram::Sums norms = program.largest_norm(*this, x.divided(of), F);
+  program.run();
+  return std::sqrt(program.most(norms, 0));
+}
+
+std::pair<int, bool> SparseRows::number_for(int space) const {
+  return elsewhere_->number_for(space);
 }
 
 }  // namespace buckens::linalg

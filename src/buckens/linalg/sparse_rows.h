@@ -2,9 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "buckens/linalg/column_descriptions.h"
 #include "buckens/linalg/matrix_types.h"
+#include "buckens/linalg/nodal_vector.h"
 #include "buckens/linalg/shared_row_order.h"
 
 namespace buckens::linalg {
@@ -32,8 +35,17 @@ class SparseRows {
   Eigen::Index rows() const { return rows_; }
   /// A x
   Vector operator*(const Vector& x) const;
+  /// The largest norm ‖F y‖ of the runs of y = A x that F has columns for, found where rows and
+  /// vector are, if other processes have both. @pre where they have an order, one of them has all
+  /// rows of a run
+  std::optional<double> largest_norm(const NodalVector& x, const Matrix& F) const;
 
  private:
+  friend class RowProgram;
+  /// By which other processes know it, and whether they have not multiplied vectors of this body by
+  /// it.
+  std::pair<int, bool> number_for(int space) const;
+
   class Elsewhere;
 
   Eigen::Index rows_ = 0;

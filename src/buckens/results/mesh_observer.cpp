@@ -40,10 +40,15 @@ void MeshObserver::add(const ObservedParts& parts, Observation& now) {
   make_room(now);
   for (const auto& [index, elements] : parts.bodies) {
     const auto body = static_cast<std::size_t>(index);
-    if (elements.all) {
-      add_all_of(body, now);
-      continue;
+    if (elements.largest) {
+      const std::optional<double> mises = largest_elsewhere(body, now);
+      if (!mises) {
+        add_all_of(body, now);
+        continue;
+      }
+      now.largest[index] = {0.0, *mises};
     }
+    if (elements.lines.empty() && elements.solids.empty()) continue;
     const Some& some = some_of(body, elements);
     const linalg::NodalVector& d = now.state.bodies[body].d;
     const linalg::Vector nodal = some.nodal.apply(d.some(some.nodal.variables()));
@@ -52,6 +57,14 @@ void MeshObserver::add(const ObservedParts& parts, Observation& now) {
     now.solid_stresses[body] = some.recovery.solid_stresses(nodal);
     now.columns[index] = elements;
   }
+}
+
+/// Where vectors are those of nodes, and beams have no stresses besides.
+std::optional<double> MeshObserver::largest_elsewhere(std::size_t body,
+                                                      const Observation& now) const {
+  const bool is_of_solids = solids_[body] && lines_[body]->num_elements() == 0;
+  if (!is_of_solids || !model_.bodies[body].flexible->recovery.is_identity()) return {};
+  return solids_[body]->largest_elsewhere(now.state.bodies[body].d);
 }
 
 const MeshObserver::Some& MeshObserver::some_of(std::size_t body,

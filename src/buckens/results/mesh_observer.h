@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "buckens/body/nodal_part.h"
@@ -21,7 +22,8 @@ class MeshObserver {
   /// Everything, of all bodies. Cost: a product with the recovery rows per flexible body.
   void add_all(Observation& now) const;
   /// What is read only. Of some elements that takes the nodal variables around them; if other
-  /// processes have these, they come here by one order per body.
+  /// processes have these, they come here by one order per body. Those find the largest stress of a
+  /// body of solids and shells, too, if its nodes follow no others.
   void add(const ObservedParts& parts, Observation& now);
 
  private:
@@ -34,6 +36,7 @@ class MeshObserver {
 
   static void make_room(Observation& now);
   void add_all_of(std::size_t body, Observation& now) const;
+  std::optional<double> largest_elsewhere(std::size_t body, const Observation& now) const;
   const Some& some_of(std::size_t body, const ObservedElements& elements);
 
   const model::Model& model_;

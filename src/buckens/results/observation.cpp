@@ -26,7 +26,7 @@ ObservedParts& ObservedParts::operator|=(const ObservedParts& other) {
   energies = energies || other.energies;
   for (const auto& [body, more] : other.bodies) {
     ObservedElements& own = bodies[body];
-    own.all = own.all || more.all;
+    own.largest = own.largest || more.largest;
     add_numbers(more.lines, own.lines);
     add_numbers(more.solids, own.solids);
   }

@@ -22,9 +22,9 @@ struct WorkBalance {
   linalg::Vector parts = {};
 };
 
-/// What is read of the mesh of a body: some of its elements, or everything.
+/// What is read of the mesh of a body.
 struct ObservedElements {
-  bool all = false;         ///< also the nodal variables
+  bool largest = false;     ///< the largest stresses of all elements
   std::vector<int> lines;   ///< line elements, ascending: their section forces and stresses
   std::vector<int> solids;  ///< solids and shells, ascending: their stresses
 
@@ -55,6 +55,8 @@ struct Observation {
   std::vector<body::FrameMotion> wholes;  ///< frame of each whole body, see model::whole_motion
   double load_factor = 1;                 ///< of applied loads
   std::vector<double> signals;            ///< t and the values of all signals; empty without any
+  /// Largest axial and von Mises stress of bodies whose tables above do not give it [Pa].
+  std::map<int, Eigen::Vector2d> largest = {};
   /// Bodies of whose elements the tables above have columns for some only: those.
   std::map<int, ObservedElements> columns = {};
 

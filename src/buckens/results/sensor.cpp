@@ -267,7 +267,7 @@ class StressSensor final : public Sensor {
     if (place_.element >= 0) return {false, {{place_.body, {false, {place_.element}, {}}}}};
     if (!place_.solids.empty()) return {false, {{place_.body, {false, {}, place_.solids}}}};
     ObservedParts out;
-    for (int k = 0; k < whole_.count; ++k) out.bodies[whole_.first + k].all = true;
+    for (int k = 0; k < whole_.count; ++k) out.bodies[whole_.first + k].largest = true;
     return out;
   }
   void append(const Observation& now, std::vector<double>& values) override {
@@ -295,6 +295,11 @@ class StressSensor final : public Sensor {
   void append_largest(const Observation& now, std::vector<double>& values) const {
     Eigen::Vector2d largest = Eigen::Vector2d::Zero();
     for (int b = whole_.first; b < whole_.first + whole_.count; ++b) {
+      const auto known = now.largest.find(b);
+      if (known != now.largest.end()) {
+        largest = largest.cwiseMax(known->second);
+        continue;
+      }
       const auto& lines = now.stresses[static_cast<std::size_t>(b)];
       const auto& solids = now.solid_stresses[static_cast<std::size_t>(b)];
       if (lines.cols() > 0) largest = largest.cwiseMax(lines.rowwise().maxCoeff());

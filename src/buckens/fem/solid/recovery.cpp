@@ -42,6 +42,16 @@ double mises_stress(const Eigen::Ref<const Eigen::Matrix<double, 6, 1>>& s) {
   return std::sqrt(0.5 * direct + 3.0 * s.tail<3>().squaredNorm());
 }
 
+Eigen::Matrix<double, 6, 6> mises_factor() {
+  Eigen::Matrix<double, 6, 6> F = Eigen::Matrix<double, 6, 6>::Zero();
+  for (int k = 0; k < 3; ++k) {
+    F(k, k) = std::sqrt(0.5);
+    F(k, (k + 1) % 3) = -F(k, k);
+    F(3 + k, 3 + k) = std::sqrt(3.0);
+  }
+  return F;
+}
+
 bool solids_join_by_faces(const FeModel& fe) {
   std::map<std::array<int, 4>, int> first;  // element that was seen with the face
   std::vector<int> parent;

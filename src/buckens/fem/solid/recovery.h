@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "buckens/fem/fe_model.h"
@@ -34,6 +35,9 @@ inline constexpr int kMises = 6;
 /// Von Mises stress of σ_xx, σ_yy, σ_zz, τ_xy, τ_yz, τ_zx.
 double mises_stress(const Eigen::Ref<const Eigen::Matrix<double, 6, 1>>& s);
 
+/// F of the von Mises stress ‖F σ‖ of these.
+Eigen::Matrix<double, 6, 6> mises_factor();
+
 /// The table of SolidRecovery::stresses from products with the rows of elements (stress_rows.h).
 linalg::Matrix stresses_of_rows(const linalg::Vector& products, Eigen::Index solids,
                                 Eigen::Index shells);
@@ -51,6 +55,11 @@ class SolidRecovery {
   ///         Mises stress [Pa]. Shells: those of the side the normal points to, and the larger of
   ///         the von Mises stresses of both sides. Cost: one sparse product.
   linalg::Matrix stresses(const linalg::Vector& d) const;
+  /// The largest von Mises stress, found by other processes if they have the rows and the nodal
+  /// variables: one number comes from each.
+  std::optional<double> largest_elsewhere(const linalg::NodalVector& d) const {
+    return rows_.largest_norm(d, mises_factor());
+  }
 
  private:
   linalg::SparseRows rows_;  // 6 per solid, 12 per shell

@@ -93,6 +93,12 @@ TEST(ElementRecovery, OfElementsOfAllKinds) {
   expect_bits_of_all(s, true, true);
 }
 
+TEST(ElementRecovery, TheFactorOfVonMisesStressesGivesThem) {
+  const Eigen::Matrix<double, 6, 1> stress(3e6, -2e6, 7e6, 1e6, 4e6, -5e6);
+  // A dozen roundings.
+  EXPECT_NEAR((mises_factor() * stress).norm(), mises_stress(stress), 1e-14 * mises_stress(stress));
+}
+
 TEST(ElementRecovery, ReadsTheVariablesOfItsElementsOnly) {
   const FeModel fe = assemble(distorted_block(SolidForm::usual(SolidKind::hex8)));
   const Recovery lines(fe);

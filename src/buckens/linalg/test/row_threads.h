@@ -56,6 +56,14 @@ class ThreadPeers final : public RowPeers {
   void multiply(int matrix, const double* x, double* y) override {
     for (std::size_t k = 0; k < rows_; ++k) y[k] = matrix * x[k];
   }
+  /// The same, of all rows of the vector here.
+  std::span<const double> multiply(const RowsOfBody& A, const double* x) override {
+    EXPECT_EQ(A.space, 7);
+    EXPECT_EQ(A.rows, A.is_new ? std::vector({2, 0, 1}) : std::vector<int>());
+    products_.resize(rows_);
+    multiply(A.matrix, x, products_.data());
+    return products_;
+  }
   Pairs pairs(int number) override {
     EXPECT_EQ(number, ThreadPairs::kNumber);
     return {pairs_->loads.data(), pairs_->answers.data()};
@@ -65,6 +73,7 @@ class ThreadPeers final : public RowPeers {
   Mailbox* mail_;
   std::size_t place_, rows_;
   ThreadPairs* pairs_;
+  std::vector<double> products_;
 };
 
 /// Threads of which each has a run of the rows of a body.

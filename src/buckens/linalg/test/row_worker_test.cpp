@@ -216,6 +216,25 @@ TEST_P(RowsOfABody, FormsInnerProducts) {
   EXPECT_NEAR(sums[1], rate.squaredNorm(), kOfOtherOrder * sums[1]);
 }
 
+TEST_P(RowsOfABody, FindsTheLargestNormOfRunsOfProducts) {
+  // Of two weighted numbers of each node.
+  const Matrix F = (Matrix(2, 3) << 1, 0, -2, 0, 3, 0).finished();
+  base::BytesTo put = program(RowTask::largest_norm, 0, 4, true, 3, 2, 0, 1, 2, 3);
+  put.all(F.data(), 6);
+  put(RowTask::largest_norm);
+  for (const int number : {1, 4}) put(number);
+  put(false);
+  for (const int number : {0, 2, 3}) put(number);
+  put.all(F.data(), 6);
+  const std::vector<Vector> found = run(put);
+  for (const int k : {0, 1}) {
+    const Vector& x = k == 0 ? d : rate;
+    const Matrix y = F * (4.0 * x).reshaped(3, nodes());
+    const double largest = std::max({found[0][k], found[1][k], found[2][k]});
+    EXPECT_NEAR(largest, y.colwise().squaredNorm().maxCoeff(), kOfOtherOrder * largest);
+  }
+}
+
 TEST_P(RowsOfABody, MemoryOfDroppedVectorsIsUsedAgain) {
   const double* before = threads.worker(0).rows(RowThreads::kSpace, 2).data();
   run(program(RowTask::drop, 2, RowTask::combine, 9, false, 0));
