@@ -19,7 +19,7 @@ namespace {
 
 // A strain that yielded in the step before stands at its bound but for rounding.
 constexpr double kAtBound = 1.0 - 1e-9;
-constexpr int kFirstAngle = 0, kSecondAngle = 1, kWound = 2, kSlip = 3;
+constexpr int kFirstAngle = 0, kSecondAngle = 1, kWound = 2, kBeltSlip = 3;
 constexpr int kFirstRate = 4, kSecondRate = 5, kInstant = 6;
 
 double angle_about(const Vector3d& axis, const Vector3d& from, const Vector3d& to) {
@@ -190,7 +190,7 @@ void ElasticBelt::start_states(const Sight& sight, double* states) const {
   Sight fresh = sight;
   fresh.states = nullptr;
   find_states(fresh, states);
-  states[kWound] = states[kSlip] = 0.0;
+  states[kWound] = states[kBeltSlip] = 0.0;
 }
 
 void ElasticBelt::find_states(const Sight& sight, double* states) const {
@@ -210,12 +210,12 @@ void ElasticBelt::find_states(const Sight& sight, double* states) const {
   states[kSecondRate] = s.second_rate;
   states[kInstant] = sight.t;
   states[kWound] = s.wound;
-  states[kSlip] = s.slipped + (sight.states != nullptr ? sight.states[kSlip] : 0.0);
+  states[kBeltSlip] = s.slipped + (sight.states != nullptr ? sight.states[kBeltSlip] : 0.0);
 }
 
 BeltReading ElasticBelt::read(const Sight& sight) const {
   const Stand s = look(sight);
-  const double before = sight.states != nullptr ? sight.states[kSlip] : 0.0;
+  const double before = sight.states != nullptr ? sight.states[kBeltSlip] : 0.0;
   return {s.left, s.right, before + s.slipped};
 }
 

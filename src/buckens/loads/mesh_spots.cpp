@@ -20,7 +20,7 @@ namespace {
 // Patches are looked for within this many radii of a sphere's centre: what it meets is seen before.
 constexpr double kReach = 2.0;
 // Faces of a cube: a sixth of a surface stands for the mean face of a body.
-constexpr double kFaces = 6.0;
+constexpr double kFacesOfCube = 6.0;
 // Smallest spread of an area, relative to its largest, in which a slope means something.
 constexpr double kThin = 1e-12;
 
@@ -160,7 +160,7 @@ void find_plane_spots(const ContactMesh& mesh, const Vector3d& normal, const Vec
     root = symmetric_root(spread);
     const bool has_slope = spread.determinant() > kThin * spread.trace() * spread.trace();
     if (has_slope) slope = spread.inverse() * common;
-    share = sums.area * kFaces / mesh.area();
+    share = sums.area * kFacesOfCube / mesh.area();
     held = 2.0 * share * (sums.square / sums.area - mean * mean - slope.dot(spread * slope));
   }
   static constexpr double kU[] = {1, -1, -1, 1}, kV[] = {1, 1, -1, -1};
