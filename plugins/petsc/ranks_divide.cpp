@@ -3,6 +3,7 @@
 #include <new>
 #include <numeric>
 
+#include "abort_alone.h"
 #include "ranks_messages.h"
 #include "ranks_parts.h"
 
@@ -221,7 +222,11 @@ void Ranks::gather_together(const Order& order, int* starts, int* rows, double* 
   const Divided& matrix = *shared_->matrices.at(order.number);
   if (rank_ != 0) {
     OwnRows own;
-    matrix.columns.list(own.starts, own.rows, own.values);
+    if (!has_memory_for([&] { matrix.columns.list(own.starts, own.rows, own.values); })) {
+      // The first process waits for them.
+      abort_alone(rank_, "there is too little memory for a matrix that goes to the first process",
+                  "use more memory");
+    }
     send(own.starts.data(), own.starts.size(), 0, work_);
     send(own.rows.data(), own.rows.size(), 0, work_);
     send(own.values.data(), own.values.size(), 0, work_);
