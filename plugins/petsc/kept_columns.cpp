@@ -19,8 +19,9 @@ void KeptColumns::add(const int* rows, const double* values, int size) {
   const auto row_end = static_cast<int>(rows_.size());
   const auto value_end = static_cast<int>(values_.size());
   Place at{row_end - size, value_end - size, size, 0};
-  if (size > 0 && at.row >= last_list_)
+  if (size > 0 && at.row >= last_list_) {
     at.moved = rows[0] - rows_[static_cast<std::size_t>(at.row)];
+  }
   const bool has_rows = at.row >= last_list_ &&
                         std::equal(rows, rows + size, rows_.begin() + at.row,
                                    [&at](int row, int before) { return row == before + at.moved; });

@@ -45,7 +45,7 @@ class KeptColumns {
   /// What is stored.
   std::size_t bytes() const;
 
-  /// Between the two no column may be read.
+  /// No column may be read until arrays have come back.
   void put(ArraysAside& aside);
   /// After arrays did not come back: columns are empty.
   void lose();

@@ -138,17 +138,18 @@ bool Ranks::make_rows_of(const std::vector<char>& description, int columns, Divi
     }
     matrix.columns.reserve(static_cast<std::size_t>(matrix.counts[rank_]), entries);
   });
-  return has_room && visit_some([&](const BuckensGridColumns& made, int count) {
-           for (int row = 0; row < count; ++row) {
-             const int first = made.starts[row];
-             places_of_row.clear();
-             for (int e = first; e < made.starts[row + 1]; ++e) {
-               places_of_row.push_back(place[made.rows[e]]);
-             }
-             matrix.columns.add(places_of_row.data(), made.values + first,
-                                static_cast<int>(places_of_row.size()));
-           }
-         });
+  if (!has_room) return false;
+  return visit_some([&](const BuckensGridColumns& made, int count) {
+    for (int row = 0; row < count; ++row) {
+      const int first = made.starts[row];
+      places_of_row.clear();
+      for (int e = first; e < made.starts[row + 1]; ++e) {
+        places_of_row.push_back(place[made.rows[e]]);
+      }
+      matrix.columns.add(places_of_row.data(), made.values + first,
+                         static_cast<int>(places_of_row.size()));
+    }
+  });
 }
 
 void Ranks::sum_facts(const OwnRows& columns, const std::vector<int>& variables,

@@ -170,7 +170,7 @@ struct Ranks::Shared {
   std::vector<int> edges;
 };
 
-/// Rows of a symmetric matrix, which are its columns.
+/// Rows of a matrix as they are listed; those of a symmetric one are its columns.
 struct Ranks::OwnRows {
   BuckensGridColumns columns{};  // those below, or the first process's
   std::vector<int> starts = {0}, rows;

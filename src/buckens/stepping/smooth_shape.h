@@ -8,7 +8,8 @@ namespace buckens::stepping {
 /// The sieved nodal values with the least Rayleigh quotient of K and M among displacements that are
 /// polynomials of the position: up to degree 3, along slender bodies up to degree 7.
 ///
-/// Cost: a product with M and K for each of 57 polynomials, and a few vectors of memory.
+/// Cost: a product with M and K for each of 57 polynomials, 77 for slender bodies, and a few
+/// vectors of memory.
 linalg::Vector smooth_shape(const body::FlexiblePart& part);
 
 }  // namespace buckens::stepping
