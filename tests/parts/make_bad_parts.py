@@ -145,16 +145,16 @@ def capped_tube(wall):
     return build
 
 
-def screwed(width, tilt):
+def screwed(width, height, tilt):
     """A block with a bolt in its bore, tilted: where the two are cut, slivers remain that run out to nothing."""
     def build(kernel):
-        block = kernel.box((0, 0, 0), (width, width, 40))
+        block = kernel.box((0, 0, 0), (width, width, height))
         def cylinder(bottom, top, radius):
             axis = [b - a for a, b in zip(bottom, top)]
             return kernel.call("gmshModelOccAddCylinder", *map(ctypes.c_double, (*bottom, *axis, radius)), -1,
                                ctypes.c_double(2 * math.pi))
-        kernel.join("gmshModelOccCut", [3, block], [3, cylinder((width / 2, width / 2, 0), (width / 2, width / 2, 40), 5)])
-        cylinder((width / 2 - tilt, width / 2, 0), (width / 2 + tilt, width / 2, 50), 5)
+        kernel.join("gmshModelOccCut", [3, block], [3, cylinder((width / 2, width / 2, 0), (width / 2, width / 2, height), 5)])
+        cylinder((width / 2 - tilt, width / 2, 0), (width / 2 + tilt, width / 2, 1.25 * height), 5)
     return build
 
 
@@ -213,8 +213,8 @@ PARTS = {
     "along_an_edge": boxes(((0, 0, 0), BOX), ((100, 60, 0), BOX)),
     "in_metres": boxes(((0, 0, 0), (140e3, 60e3, 40e3))),
     "fin": solid_with_fin,
-    "screwed": screwed(60, 0.02),
-    "pressed": screwed(22, 0.02),
+    "screwed": screwed(60, 40, 0.02),
+    "pressed": screwed(22, 5, 0.05),
     "foil": boxes(((0, 0, 0), (100, 60, 1e-4))),
     "sheet": boxes(((0, 0, 0), (100, 20, 0.25))),
     "block_with_sheet": boxes(((0, 0, 0), (60, 60, 40)), ((60, 0, 20), (40, 60, 0.3))),
