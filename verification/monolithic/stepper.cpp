@@ -241,15 +241,14 @@ void MonolithicStepper::iterate(double t, stepping::StepReport& report) {
     rigid_tangent(all);
     SparseMatrix A(size_, size_);
     A.setFromTriplets(all.begin(), all.end());
-    Eigen::SparseLU<SparseMatrix> lu(A);
-    if (lu.info() != Eigen::Success) {
+    if (!lu_.factorise(A)) {
       throw NumericalError(
           fmt::format("step at t = {:.6g} s failed: the monolithic matrix is singular; the joint "
                       "equations have become dependent",
                       t));
     }
     double motion = 0;
-    const double change = apply(lu.solve(Vector(-residual(t))), motion);
+    const double change = apply(lu_.solve(Vector(-residual(t))), motion);
     ++report.newton_iterations;
     for (const auto& part : parts_) update_coupling(*part);
     evaluate(t);

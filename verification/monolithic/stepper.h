@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include <Eigen/SparseLU>
+#include "verification/monolithic/ordered_lu.h"
 
 #include "buckens/dynamics/forces.h"
 #include "buckens/stepping/held_laws.h"
@@ -109,6 +109,7 @@ class MonolithicStepper {
   dynamics::Forces forces_;
   model::LoadInputs inputs_;
   model::RowMemory memory_;  // at the start of the step
+  OrderedLu lu_;
 };
 
 }  // namespace buckens::verification
