@@ -38,6 +38,9 @@ def pytest_sessionstart():
     # a function to be called in each of them would cost more than to start the program (Python then copies itself).
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
+    # The same of SIGHUP and nohup: a function here, so that a terminal that closes still ends nothing.
+    if signal.getsignal(signal.SIGHUP) == signal.SIG_IGN:
+        signal.signal(signal.SIGHUP, lambda number, frame: None)
 
 
 def may_mesh_step_files():
