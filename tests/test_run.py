@@ -46,7 +46,12 @@ def test_summary_has_what_is_documented(buckens, models, tmp_path):
     summary = summary_of(tmp_path / "out")
     assert {"steps", "wall_seconds", "bodies", "setup_solves", "newton_iterations", "residuals",
             "energy_error", "trust", "warnings"} <= set(summary)
-    assert {"total", "setup", "stepping"} <= set(summary["wall_seconds"])
+    wall = summary["wall_seconds"]
+    assert {"total", "setup", "stepping", "phases", "preparation"} <= set(wall)
+    before = {"model", "meshes", "assembly"}
+    assert before | {"initial_state", "order", "factor", "responses", "records", "rest"} <= set(wall["preparation"])
+    parts = [seconds for name, seconds in wall["preparation"].items() if name not in before]
+    assert min(parts) >= 0 and abs(sum(parts) - wall["setup"]) < 1e-3 * wall["setup"] + 1e-5
     assert {"dof", "factorisations", "solves"} <= set(summary["bodies"]["beam"])
     assert {"position", "velocity", "sieve"} <= set(summary["residuals"])
     assert summary["status"] == "finished" and summary["finished"]

@@ -192,8 +192,17 @@ void PanelFile::write(const PanelFactor& factor, double entries) const {
 }
 
 std::optional<PanelFile::Stored> PanelFile::read(SimdLevel level) const {
+  std::error_code problem;
+  const fs::file_status status = fs::status(path_, problem);
+  if (!fs::exists(status)) return std::nullopt;
+  const auto refuse = [this](const char* what) {
+    warn(path_, fmt::format("{}; the factor is computed anew", what));
+    return std::nullopt;
+  };
+  // Whoever opens a pipe waits for somebody to write.
+  if (!fs::is_regular_file(status)) return refuse("is no regular file");
   std::ifstream in(path_, std::ios::binary | std::ios::ate);
-  if (!in) return std::nullopt;
+  if (!in) return refuse("cannot be opened");
   const auto length = static_cast<std::int64_t>(in.tellg());
   in.seekg(0);
   const auto get = [&in](auto* values, std::size_t count) {
@@ -201,10 +210,6 @@ std::optional<PanelFile::Stored> PanelFile::read(SimdLevel level) const {
   };
   Header header;
   get(&header, 1);
-  const auto refuse = [this](const char* what) {
-    warn(path_, fmt::format("{}; the factor is computed anew", what));
-    return std::nullopt;
-  };
   const bool is_ours = in && std::memcmp(header.magic, kMagic, sizeof kMagic) == 0 &&
                        header.byte_order == kByteOrder &&
                        std::memcmp(header.key, key_.data(), sizeof header.key) == 0;

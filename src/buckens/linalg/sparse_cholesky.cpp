@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "buckens/base/timed_phase.h"
 #include "buckens/linalg/factor_cache.h"
 #include "buckens/linalg/factor_threads.h"
 #include "buckens/linalg/factor_work.h"
@@ -72,13 +73,15 @@ struct SparseCholesky::Backend {
   /// Takes the panels from the folder of factors, or makes them and keeps them there.
   void find_panels(const SparseMatrix& A, SimdLevel simd) {
     if (FactorCache::folder().empty()) return make_panels(A, A, simd, nullptr);
-    const PanelFile file(FactorCache::folder(), A);
+    std::optional<PanelFile> file;
     try {
-      if (take_stored(file, simd)) return;
+      const base::TimedPhase phase("stored_factors");
+      file.emplace(FactorCache::folder(), A);
+      if (take_stored(*file, simd)) return;
     } catch (const std::bad_alloc&) {
       throw too_little_memory("factorise", size, 0.0);
     }
-    make_panels(A, A, simd, &file);
+    make_panels(A, A, simd, &*file);
   }
 
   /// @param pattern A itself, or one that has its pattern
@@ -89,17 +92,27 @@ struct SparseCholesky::Backend {
     double bytes = 0.0;
     try {
       FactorWork work(size);
-      const SupernodeTree tree = find_supernode_tree(pattern);
+      const SupernodeTree tree = order_of(pattern);
       entries = tree.num_entries;
+      const base::TimedPhase phase("factor");
       FactorPool pool(tree.num_products);
       panels.emplace(A, tree, simd, pool.get(), [&](double needed) {
         bytes = needed;
         work.begin(bytes);
       });
-      if (file != nullptr && bytes >= kWorthKeeping) file->write(*panels, entries);
+      if (file != nullptr && bytes >= kWorthKeeping) {
+        const base::TimedPhase storing("stored_factors");
+        file->write(*panels, entries);
+      }
     } catch (const std::bad_alloc&) {
       throw too_little_memory("factorise", size, bytes);
     }
+  }
+
+  template <class Pattern>
+  static SupernodeTree order_of(const Pattern& pattern) {
+    const base::TimedPhase phase("order");
+    return find_supernode_tree(pattern);
   }
 
   bool take_stored(const PanelFile& file, SimdLevel simd) {

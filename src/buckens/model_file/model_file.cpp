@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/timed_phase.h"
 #include "buckens/files/text_file.h"
 #include "buckens/files/text_lines.h"
 #include "buckens/model/spec/description_member.h"
@@ -120,6 +121,8 @@ std::vector<std::string> signal_names(const YamlNode& root) {
 model::ModelDescription read_model_text(const std::string& text, const std::string& name,
                                         const std::vector<std::string>& overrides,
                                         StepMeshCache& meshes) {
+  base::take_phases();  // of another model, if nobody has asked for them
+  const base::TimedPhase phase("model");
   YamlNode root = parse_yaml(text, name);
   if (root.kind == YamlNode::Kind::null) {
     throw InputError({name, 0, 0}, "the model file is empty; it begins with \"buckens: 1\"");

@@ -45,6 +45,8 @@ struct WallSeconds {
   double setup = 0;
   double stepping = 0;
   std::vector<std::pair<std::string, double>> phases;  ///< shares of `stepping`, by name
+  /// From the model file to the first step, by name: what precedes `setup`, and its shares.
+  std::vector<std::pair<std::string, double>> preparation;
 };
 
 struct NewtonEffort {

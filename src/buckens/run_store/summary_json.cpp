@@ -53,7 +53,8 @@ Json wall_json(const results::WallSeconds& wall) {
   return {{"total", wall.total},
           {"setup", wall.setup},
           {"stepping", wall.stepping},
-          {"phases", by_name(wall.phases)}};
+          {"phases", by_name(wall.phases)},
+          {"preparation", by_name(wall.preparation)}};
 }
 
 Json static_path_json(const results::StaticPathSummary& path) {

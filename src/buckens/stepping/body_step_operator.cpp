@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "buckens/base/timed_phase.h"
 #include "buckens/body/mesh_solver.h"
 #include "buckens/linalg/node_blocks.h"
 #include "buckens/linalg/same_bits.h"
@@ -132,6 +133,7 @@ void BodyStepOperator::find_nodal(const FactorSource& source) {
 }
 
 void BodyStepOperator::find_responses(const FactorSource& source) {
+  const base::TimedPhase phase("responses");
   const BodyResponses::Source own(factor_.get(), nodal_.get(), *part_, N_, scheme_);
   const auto make = [&] { return make_responses(own); };
   // A twin whose vectors other processes have has given them its responses, and two bodies cannot
@@ -243,11 +245,11 @@ void BodyStepOperator::solve_right_side(Vector& x, TaskPool* pool) {
   }
 }
 
-void BodyStepOperator::solve(Vector& x) {
+void BodyStepOperator::solve(Vector& x, TaskPool* pool) {
   if (is_diagonal()) {
     x = x.cwiseProduct(diagonal_inverse_);
   } else {
-    factor_->solve_in_place(x);
+    factor_->solve_in_place(x, pool);
     part_->sieve.apply(x);
   }
   ++setup_solves_;

@@ -60,7 +60,7 @@ class BodyStepOperator final : public BodyAnswer {
   }
 
   /// x ← Y K̂⁻¹ x, outside of steps: counts as set-up.
-  void solve(linalg::Vector& x);
+  void solve(linalg::Vector& x, TaskPool* pool = nullptr);
 
   /// Adds c G f, the response to loads along the rows of N, to a piece of a vector. This and the
   /// next two: of bodies whose responses are here, not divided().

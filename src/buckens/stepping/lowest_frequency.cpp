@@ -32,13 +32,13 @@ bool is_steady(std::span<const double> squares, int k) {
 
 }  // namespace
 
-double lowest_frequency(const body::FlexiblePart& part, BodyStepOperator& op) {
+double lowest_frequency(const body::FlexiblePart& part, BodyStepOperator& op, TaskPool* pool) {
   if (part.num_dofs() <= part.sieve.rank()) return 0.0;
   const linalg::SymmetricMatrix& M = part.fe.M;
   const linalg::SymmetricMatrix& K = part.fe.K;
   // Shape, correction, last way, and what M and K make of them.
   Matrix span(part.num_dofs(), 3), with_M(part.num_dofs(), 3), with_K(part.num_dofs(), 3);
-  span.col(0) = smooth_shape(part);
+  span.col(0) = smooth_shape(part, pool);
   Vector product_M, product_K;
   int columns = 1;
   double square = 0;
@@ -65,7 +65,7 @@ double lowest_frequency(const body::FlexiblePart& part, BodyStepOperator& op) {
     if (k == kMostSolves || is_steady(squares, k)) break;
     const Vector residual = Kx - square * Mx;
     Vector correction = residual;
-    op.solve(correction);
+    op.solve(correction, pool);
     // ‖r‖² in the metric of M⁻¹, nearly: slow shapes see the mass part of the step matrix only.
     double stiffness = op.scheme().mass * mass + op.scheme().stiffness * x.dot(Kx);
     if (part.is_damped()) stiffness += op.scheme().damping * x.dot(part.C * x);

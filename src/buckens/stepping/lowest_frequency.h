@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "buckens/base/task_pool.h"
 #include "buckens/stepping/body_step_operator.h"
 
 namespace buckens::stepping {
@@ -13,6 +14,9 @@ namespace buckens::stepping {
 /// less K̂ distinguishes slow shapes and the more solves it takes, about the steps of a quarter
 /// period of ω₁. Stops when the residual bounds the error of ω₁ by about 0.5 %, when four solves
 /// have lowered ω₁² by less than 0.1 %, or after 100 solves; never too low.
-double lowest_frequency(const body::FlexiblePart& part, BodyStepOperator& op);
+///
+/// @param pool may share the work; changes no bit
+double lowest_frequency(const body::FlexiblePart& part, BodyStepOperator& op,
+                        TaskPool* pool = nullptr);
 
 }  // namespace buckens::stepping

@@ -102,11 +102,14 @@ class FieldsAtNodes {
   /// Nodal values of a sum of fields.
   Vector values(const Vector& weights) const {
     Vector out = Vector::Zero(size_);
+    std::vector<Eigen::Index> some;
+    for (Eigen::Index k = 0; k < count(); ++k) {
+      if (weights[k] != 0.0) some.push_back(k);
+    }
     for (std::size_t node = 0; node < fe_->nodes.size(); ++node) {
       const Powers at = powers(node);
       Vector6 u = Vector6::Zero();  // in principal axes
-      for (Eigen::Index k = 0; k < count(); ++k) {
-        if (weights[k] == 0.0) continue;
+      for (const Eigen::Index k : some) {
         const SmoothField& field = fields_[static_cast<std::size_t>(k)];
         const Vector3d along = Vector3d::Unit(field.axis);
         u.head<3>() += weights[k] * length_ * at.monomial(field.powers) * along;
@@ -177,32 +180,46 @@ struct Projections {
   Matrix M, K;
 };
 
-Projections projections(const body::FlexiblePart& part, const FieldsAtNodes& fields) {
+Projections projections(const body::FlexiblePart& part, const FieldsAtNodes& fields,
+                        TaskPool* pool) {
   const Eigen::Index count = fields.count();
   Matrix M(count, count), K(count, count);
-  std::vector<Eigen::Index> kept;
-  Vector with_M, with_K;
-  for (Eigen::Index k = 0; k < count; ++k) {
+  std::vector<char> is_kept(static_cast<std::size_t>(count));
+  run_tasks(pool, static_cast<int>(count), [&](int k) {
     Vector x = fields.values(Vector::Unit(count, k));
     const double before = x.norm();
     part.sieve.apply(x);
-    if (!(x.norm() > kRigid * before)) continue;
-    kept.push_back(k);
+    if (!(x.norm() > kRigid * before)) return;
+    is_kept[static_cast<std::size_t>(k)] = true;
+    Vector with_M, with_K;
     linalg::multiply({{&part.fe.M, &x, &with_M}, {&part.fe.K, &x, &with_K}});
     // (Y p)ᵀ A x = pᵀ (Yᵀ A x) for each field p.
     part.sieve.apply_transposed(with_M);
     part.sieve.apply_transposed(with_K);
     M.col(k) = fields.work(with_M);
     K.col(k) = fields.work(with_K);
+  });
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    if (is_kept[static_cast<std::size_t>(k)]) kept.push_back(k);
   }
   return {kept, M(kept, kept), K(kept, kept)};
 }
 
+/// Whether several threads may multiply by the matrices of a body at a time: other processes take
+/// one order after the other, and a matrix without entries here forms them when it is asked.
+bool allows_threads(const body::FlexiblePart& part) {
+  const auto allows = [](const linalg::SymmetricMatrix& A) {
+    return A.is_formed() || A.nodes() != nullptr || A.blocks() != nullptr;
+  };
+  return allows(part.fe.M) && allows(part.fe.K);
+}
+
 }  // namespace
 
-Vector smooth_shape(const body::FlexiblePart& part) {
+Vector smooth_shape(const body::FlexiblePart& part, TaskPool* pool) {
   const FieldsAtNodes fields(part);
-  const Projections of = projections(part, fields);
+  const Projections of = projections(part, fields, allows_threads(part) ? pool : nullptr);
   Vector weights = Vector::Zero(fields.count());
   weights(of.fields) = least_combination(of.M, of.K);
   Vector out = fields.values(weights);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/timed_phase.h"
 #include "buckens/dynamics/row_memory.h"
 #include "buckens/stepping/change_of_step.h"
 #include "buckens/stepping/lowest_frequency.h"
@@ -465,7 +466,8 @@ double Stepper::neglected(std::size_t body, const model::State& state,
 }
 
 double Stepper::lowest_frequency(std::size_t body) {
-  return stepping::lowest_frequency(*model_.bodies[body].flexible, *operators_[body]);
+  const base::TimedPhase phase("lowest_frequency");
+  return stepping::lowest_frequency(*model_.bodies[body].flexible, *operators_[body], pool_.get());
 }
 
 SolveCounts Stepper::counts(std::size_t body) const {

@@ -13,6 +13,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/base/free_memory.h"
 #include "buckens/base/log.h"
+#include "buckens/base/timed_phase.h"
 #include "buckens/base/version.h"
 #include "buckens/dynamics/contact_groups.h"
 #include "buckens/dynamics/pair_memory.h"
@@ -37,9 +38,20 @@ SimulationRun::SimulationRun(const model::BuiltModel& built, SimulationOptions o
       options_(std::move(options)),
       spec_(simulation_of(built.description)),
       views_(built.model) {
+  base::take_phases();
+  summary_.wall_seconds.preparation = built.phases;
   set_up();
   base::return_free_memory();
-  setup_seconds_ = seconds_since(created_);
+  note_preparation(seconds_since(created_));
+}
+
+/// @param seconds that this part of the set-up took
+void SimulationRun::note_preparation(double seconds) {
+  setup_seconds_ += seconds;
+  base::PhaseSeconds phases = base::take_phases();
+  for (const auto& phase : phases) seconds -= phase.second;
+  phases.emplace_back("rest", seconds);
+  base::add_phases(phases, summary_.wall_seconds.preparation);
 }
 
 void SimulationRun::warn(const std::string& text) {

@@ -99,6 +99,7 @@ class SimulationRun {
   void settle(const model::State& before, model::State& state, const stepping::StepReport& report);
   bool report_progress();
   void split_wall_time();
+  void note_preparation(double seconds);
   std::vector<std::size_t> loads_with_values(const std::string& name) const;
   std::size_t find_signal(const std::string& name) const;
   void visit_saved(const base::SaveVisit& visit);

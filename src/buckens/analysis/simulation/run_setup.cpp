@@ -13,6 +13,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/base/free_memory.h"
 #include "buckens/base/log.h"
+#include "buckens/base/timed_phase.h"
 #include "buckens/base/version.h"
 #include "buckens/linalg/factor_threads.h"
 #include "buckens/model/contact_group.h"
@@ -139,8 +140,11 @@ void SimulationRun::set_up() {
   plan_ = plan_output(built_.description);
   summary_.title = built_.model.title;
   summary_.version = kVersion;
-  metric_.emplace(built_.model);
-  prepared_.emplace(prepare(built_, *metric_, own_.pairs()));
+  {
+    const base::TimedPhase phase("initial_state");
+    metric_.emplace(built_.model);
+    prepared_.emplace(prepare(built_, *metric_, own_.pairs()));
+  }
   powers_.emplace(built_.model, method_of(spec_.method) != stepping::Method::newmark);
   begin_march(0.0);
   observer_.emplace(built_, *metric_, !prepared_->redundant_rows.empty());
@@ -219,6 +223,8 @@ void SimulationRun::set_lowest_frequency(int body, double omega) {
 
 void SimulationRun::record_into(results::RecordSink& sink) {
   const auto start = Clock::now();
+  base::take_phases();
+  std::optional<base::TimedPhase> phase(std::in_place, "records");
   recording_.emplace(RunRecording::Followed{built_, *work_, *statistics_, *observer_}, plan_, sink);
   if (restored_) {
     const base::SaveVisit visit = base::SaveVisit::restoring(*restored_).inside("recording");
@@ -232,7 +238,8 @@ void SimulationRun::record_into(results::RecordSink& sink) {
   if (const std::string advice = recording_->size_advice(); !advice.empty()) warn(advice);
   recording_->begin();
   base::return_free_memory();
-  setup_seconds_ += seconds_since(start);
+  phase.reset();
+  note_preparation(seconds_since(start));
 }
 
 /// Sensors refer to the state at which they are first evaluated.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -112,6 +113,80 @@ TEST(RecycledSteps, TakeOneSolveEachAfterAReleaseAndTheSameWay) {
   EXPECT_LT(of_kept[1], 1e-2 * of_one[1]);
   EXPECT_LT(of_two[1], 1e-2 * of_one[1]);
   RecordProperty("solves", std::to_string(kept.counts.solves));
+}
+
+/// A free block of steel that tumbles and rings.
+struct Tumbling {
+  model::Model model;
+  Start start;
+
+  Tumbling() {
+    Mechanism m;
+    fem::Structure structure;
+    fem::Box box;
+    box.size = {1.0, 0.2, 0.1};
+    box.divisions = {16, 3, 2};
+    fem::add_box(structure, box, fem::Material::isotropic(2.1e11, 0.3, 7850));
+    m.add_flexible(fem::assemble(structure), body::CouplingLevel::full, {});
+    model = m.take();
+    start = buckens::test::consistent_start(model, [&](model::State& state) {
+      const body::FlexiblePart& part = *model.bodies[0].flexible;
+      state.bodies[0].frame.w = {5, 30, 1};
+      linalg::Vector rate = linalg::Vector::Zero(part.num_dofs());
+      for (std::size_t node = 0; node < part.fe.nodes.size(); ++node) {
+        const Eigen::Vector3d x = part.fe.nodes[node].position;
+        rate[part.fe.dofs.node_dofs[node][2]] = 10.0 * x[0] * x[0];
+        rate[part.fe.dofs.node_dofs[node][1]] = 6.0 * x[0] * x[0] * x[0];
+      }
+      part.sieve.apply(rate);
+      state.bodies[0].d_dot = rate;
+    });
+  }
+};
+
+/// Largest changes in so many steps, relative to what there is at the start.
+struct Drift {
+  double energy = 0, angular = 0, linear = 0;
+  SolveCounts counts;
+};
+
+Drift drift(const Tumbling& block, int kept_solves, int steps) {
+  Stepper stepper(block.model, ringing_steps(kept_solves), block.start.rows_in_use);
+  model::State state = block.start.state;
+  const auto energy = [&] { return dynamics::energy(block.model, state).total(); };
+  const double energy_before = energy();
+  const dynamics::Momentum before = dynamics::momentum(block.model, state);
+  Drift out;
+  for (int k = 0; k < steps; ++k) {
+    stepper.step(state);
+    const dynamics::Momentum now = dynamics::momentum(block.model, state);
+    out.energy = std::max(out.energy, std::abs(energy() - energy_before) / energy_before);
+    out.angular =
+        std::max(out.angular, (now.angular - before.angular).norm() / before.angular.norm());
+    out.linear = std::max(out.linear, (now.linear - before.linear).norm());
+  }
+  out.counts = stepper.counts(0);
+  return out;
+}
+
+TEST(RecycledSteps, KeepEnergyAndMomentumAsWellAsTwoSolves) {
+  constexpr int kSteps = 600;
+  const Tumbling block;
+  const Drift two = drift(block, 0, kSteps);
+  const Drift kept = drift(block, 80, kSteps);
+  EXPECT_GE(two.counts.solves, 2 * kSteps - 10);
+  EXPECT_GE(kept.counts.recycled, kSteps * 3 / 4) << kept.counts.solves;
+  EXPECT_LE(kept.energy, 1.02 * two.energy);
+  EXPECT_LE(kept.angular, 1.02 * two.angular);
+  EXPECT_LE(kept.linear, 1e-9);
+  for (const auto& [name, value] : {std::pair{"energy", two.energy},
+                                    {"energy_kept", kept.energy},
+                                    {"angular", two.angular},
+                                    {"angular_kept", kept.angular},
+                                    {"linear", two.linear},
+                                    {"linear_kept", kept.linear}}) {
+    RecordProperty(name, fmt::format("{:.3e}", value));
+  }
 }
 
 TEST(RecycledSteps, AreBitwiseTheSameWithTwoThreads) {

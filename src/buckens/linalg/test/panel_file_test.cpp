@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "buckens/base/log.h"
@@ -101,6 +102,19 @@ TEST_F(StoredFactors, AreComputedAnewWhereTheyAreDamaged) {
     EXPECT_EQ(solved(), expected_) << place;
     EXPECT_NE(told_.find("computed anew"), std::string::npos) << place << told_;
   }
+}
+
+TEST_F(StoredFactors, DoNotWaitForAPipeInPlaceOfAFile) {
+  solved();
+  ASSERT_EQ(files().size(), 1U);
+  const fs::path path = files().front();
+  fs::remove(path);
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  listen();
+  EXPECT_EQ(solved(), expected_);
+  EXPECT_NE(told_.find("is no regular file; the factor is computed anew"), std::string::npos)
+      << told_;
+  EXPECT_TRUE(fs::is_regular_file(path)) << "the factor takes its place";
 }
 
 TEST_F(StoredFactors, MayBeMadeBySeveralAtOnce) {

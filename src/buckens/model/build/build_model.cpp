@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "buckens/base/errors.h"
+#include "buckens/base/timed_phase.h"
 #include "buckens/base/usable_memory.h"
 #include "buckens/linalg/grid_library.h"
 #include "buckens/model/build/add_coupler.h"
@@ -163,6 +164,7 @@ class Builder {
     whole.where = spec.where;
     if (spec.geometric_stiffness) note_stiffening(spec);
     if (std::holds_alternative<body::RigidSpec>(spec.kind)) return;
+    const base::TimedPhase phase("meshes");
     meshes_[w] = std::make_unique<NamedStructure>(structure_from_spec(spec));
     // Loads on offset shells find the directors that their inertia has.
     meshes_[w]->structure.shells.choose_directors(meshes_[w]->structure.nodes);
@@ -469,9 +471,15 @@ class Builder {
 }  // namespace
 
 std::unique_ptr<BuiltModel> build_model(ModelDescription description, body::BasisStore* bases) {
-  require_sound(description);
-  make_settings_of_parameters(description);
-  return Builder(std::move(description), bases).run();
+  std::unique_ptr<BuiltModel> out;
+  {
+    const base::TimedPhase phase("model");
+    require_sound(description);
+    make_settings_of_parameters(description);
+    out = Builder(std::move(description), bases).run();
+  }
+  out->phases = base::take_phases();
+  return out;
 }
 
 }  // namespace buckens::model

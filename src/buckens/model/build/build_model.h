@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "buckens/base/timed_phase.h"
 #include "buckens/body/basis_store.h"
 #include "buckens/model/build/field_places.h"
 #include "buckens/model/model.h"
@@ -38,6 +39,7 @@ struct BuiltModel {
   std::vector<SensorPlace> sensors;     ///< one per entry of description.output.sensors
   std::vector<StartCoordinate> starts;  ///< of description.initial.joints
   std::vector<FieldPlaces> fields;      ///< of description.output.field_output; empty without it
+  base::PhaseSeconds phases;            ///< of reading and building it
 };
 
 /// Builds and checks the mechanism.

@@ -8,6 +8,7 @@
 #include "buckens/base/errors.h"
 #include "buckens/base/log.h"
 #include "buckens/base/stopwatch.h"
+#include "buckens/base/timed_phase.h"
 #include "buckens/fem/assembly/assemble.h"
 #include "buckens/fem/element/node_number.h"
 #include "buckens/fem/mesh/curved_beam.h"
@@ -249,6 +250,7 @@ const InterfaceRegion* NamedStructure::find_interface(const std::string& name) c
 }
 
 fem::FeModel assemble(const NamedStructure& mesh, std::optional<spatial::Plane> planar) {
+  const base::TimedPhase phase("assembly");
   const base::Stopwatch watch;
   // Matrices keep all variables in a plane model, as solids do.
   fem::FeModel out = mesh.matrices ? fem::assemble(*mesh.matrices, mesh.rayleigh)

@@ -53,6 +53,8 @@ TEST(LowestFrequency, OfSlenderSolidsNeedsFewSolves) {
     EXPECT_GE(omega, modes.omega[0] * (1.0 - 1e-6));
     EXPECT_LE(omega, modes.omega[0] * 1.01);
     EXPECT_LE(op.setup_solves() - before, 12);
+    TaskPool pool(3);
+    EXPECT_EQ(lowest_frequency(part, op, &pool), omega);
   }
 }
 
