@@ -11,6 +11,7 @@ import yaml
 from models_of_many_variables import (BLOW, CUBE, FELT, LARGEST, LARGEST_AND_ONE, LARGEST_OF_SHELLS, SHAFTS, SHELL_SIDE, SHELLS, SIDE, SPUN,
                                       STRESSED, TWINS, stressed_grid)
 from mpi_runs import expect_same_energies, expect_same_stresses, mpirun, must, several, sets  # noqa: F401
+from test_mpi_matrices import scalar_mass
 from test_solver import largest_difference, sensors
 
 
@@ -291,3 +292,22 @@ def test_pairs_that_were_just_made_are_saved(mpirun, tmp_path):
     assert (6 + rest, recycled_there) == (solves, recycled)
     whole, parts = sensors(tmp_path / "whole"), sensors(tmp_path / "parts")
     assert largest_difference(parts, whole) < 1e-12
+
+
+def bytes_of_whole_matrices(directory):
+    return json.loads((directory / "summary.json").read_text())["measures"]["bytes_of_whole_matrices"]
+
+
+@several
+def test_the_scalar_mass_matrix_comes_again_where_something_needs_it(buckens, mpirun, tmp_path):
+    """The first process lets go of it once others have its columns, of two equal bodies both; a blow needs it."""
+    for name, text in (("twins", TWINS), ("blow", BLOW)):
+        (tmp_path / f"{name}.yaml").write_text(text)
+    once = scalar_mass(SIDE)
+    halved = sets("simulation.tolerance=1e-7", "simulation.step=0.2 ms")
+    must(mpirun(2, "run", "twins.yaml", "-o", "steps", *halved))
+    assert bytes_of_whole_matrices(tmp_path / "steps") == 2 * once, "factors for other lengths of step need it no more"
+    must(mpirun(2, "run", "blow.yaml", "-o", "two"))
+    assert bytes_of_whole_matrices(tmp_path / "two") == 2 * once
+    buckens("run", "blow.yaml", "-o", "one").must(0)
+    assert largest_difference(sensors(tmp_path / "two"), sensors(tmp_path / "one")) < 1e-9

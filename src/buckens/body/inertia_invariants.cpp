@@ -30,7 +30,9 @@ Matrix3d bilinear(const fem::ShapeIntegrals& shape, const Vector& x, const Vecto
     T(b, a) = y.dot(Wx);
   }
   const NodalInertia nodal(shape.nodal);
-  if (!nodal.empty()) T += nodal.times_mass(x) * nodal.by_node(y).transpose();
+  // The scalar mass matrix may have to come from other processes.
+  if (nodal.empty() || x.isZero(0.0) || y.isZero(0.0)) return T;
+  T += nodal.times_mass(x) * nodal.by_node(y).transpose();
   return T;
 }
 

@@ -3,7 +3,6 @@
 
 #include <array>
 
-#include "buckens/linalg/node_matrix.h"
 #include "buckens/linalg/row_parts.h"
 
 namespace buckens::body {
@@ -12,9 +11,7 @@ using Eigen::Matrix3Xd;
 using linalg::Vector;
 
 NodalInertia::NodalInertia(const fem::NodalMass& mass)
-    : mass_(&mass), is_regular_(mass.is_numbered_by_node()) {
-  if (is_regular_) matrix_ = linalg::node_matrix(*mass.Ms);
-}
+    : mass_(&mass), is_regular_(mass.is_numbered_by_node()), read_(mass.Ms) {}
 
 Matrix3Xd NodalInertia::by_node(const Vector& x) const {
   Matrix3Xd X(3, static_cast<Eigen::Index>(mass_->dofs.size()));
@@ -30,16 +27,16 @@ Matrix3Xd NodalInertia::by_node(const Vector& x) const {
 Matrix3Xd NodalInertia::times_mass(const Vector& x) const { return by_node(x) * *mass_->Ms; }
 
 void NodalInertia::multiply(const Vector& x, Vector& y, TaskPool* pool) const {
-  const linalg::SparseMatrix& Ms = *mass_->Ms;
-  if (is_regular_ && y.size() == 3 * Ms.outerSize()) {
+  if (is_regular_ && y.size() == 3 * read_.rows()) {
     const linalg::NodeKernels& kernels = linalg::node_kernels();
-    const linalg::RowParts nodes(Ms.outerSize());
+    const linalg::NodeMatrix Ms = matrix();
+    const linalg::RowParts nodes(Ms.nodes);
     nodes.for_pieces(pool, [&](int /*part*/, Eigen::Index first, Eigen::Index count) {
-      kernels.multiply(matrix_, static_cast<int>(first), static_cast<int>(count), x.data(),
-                       y.data());
+      kernels.multiply(Ms, static_cast<int>(first), static_cast<int>(count), x.data(), y.data());
     });
     return;
   }
+  const linalg::SparseMatrix& Ms = *mass_->Ms;
   y.setZero();
   for (int node = 0; node < Ms.outerSize(); ++node) {
     const auto& to = mass_->dofs[static_cast<std::size_t>(node)];

@@ -3,7 +3,7 @@
 
 #include "buckens/base/task_pool.h"
 #include "buckens/fem/element/shape_integrals.h"
-#include "buckens/linalg/node_kernels.h"
+#include "buckens/linalg/node_matrix.h"
 
 namespace buckens::body {
 
@@ -19,7 +19,7 @@ class NodalInertia {
   explicit NodalInertia(const fem::NodalMass& mass);
   /// Reads another copy of the matrix in products, which several bodies have in common.
   /// @pre is_regular()
-  void read_from(const linalg::NodeMatrix& copy) { matrix_ = copy; }
+  void read_from(const linalg::SharedMatrix& copy) { read_ = copy; }
 
   bool empty() const { return mass_->empty(); }
   /// x as an array with one column of translations per node, zeros where there is no DOF.
@@ -35,12 +35,13 @@ class NodalInertia {
   /// Whether node k has the variables 3k, 3k + 1, 3k + 2.
   bool is_regular() const { return is_regular_; }
   const fem::NodalMass& mass() const { return *mass_; }
-  const linalg::NodeMatrix& matrix() const { return matrix_; }
+  /// @pre is_regular()
+  linalg::NodeMatrix matrix() const { return linalg::node_matrix(*read_); }
 
  private:
   const fem::NodalMass* mass_;
   bool is_regular_;
-  linalg::NodeMatrix matrix_;  // of a regular one
+  linalg::SharedMatrix read_;
 };
 
 }  // namespace buckens::body

@@ -4,7 +4,6 @@
 #include "buckens/body/nodal_inertia.h"
 #include "buckens/body/second_moments.h"
 #include "buckens/linalg/node_matrix.h"
-#include "buckens/linalg/same_bits.h"
 #include "buckens/spatial/rotation.h"
 
 namespace buckens::body {
@@ -68,8 +67,7 @@ bool NodalMotion::describes(const FlexiblePart& part) const {
 
 bool NodalMotion::operator==(const NodalMotion& other) const {
   return positions_ == other.positions_ && first_moments_ == other.first_moments_ &&
-         to_axes_ == other.to_axes_ &&
-         (Ms_ == other.Ms_ || linalg::have_same_bits(*Ms_, *other.Ms_));
+         to_axes_ == other.to_axes_ && Ms_.has_same_bits(other.Ms_);
 }
 
 linalg::NodeMatrix NodalMotion::mass() const { return linalg::node_matrix(*Ms_); }

@@ -30,9 +30,9 @@ class NodalMotion {
   /// Whether both are bitwise the same.
   bool operator==(const NodalMotion& other) const;
 
-  /// The scalar mass matrix, as long as this object lives.
+  /// The scalar mass matrix, as long as this object lives and nobody lets go of it.
   linalg::NodeMatrix mass() const;
-  const linalg::SparseMatrix& scalar_mass() const { return *Ms_; }
+  const linalg::SharedMatrix& scalar_mass() const { return Ms_; }
   /// (X, 1) and (s, m) of the nodes.
   const Eigen::Matrix4Xd& positions() const { return positions_; }
   const Eigen::Matrix4Xd& mass_moments() const { return first_moments_; }
@@ -83,7 +83,7 @@ class NodalMotion {
   linalg::Matrix columns(const Eigen::Matrix4Xd& places) const;
 
   const linalg::NodeKernels* kernels_;
-  std::shared_ptr<const linalg::SparseMatrix> Ms_;
+  linalg::SharedMatrix Ms_;
   Eigen::Matrix4Xd positions_;           // X, 1
   Eigen::Matrix4Xd first_moments_;       // s, m
   Eigen::Matrix<double, 6, 6> to_axes_;  // as of the sieve

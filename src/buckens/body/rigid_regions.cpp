@@ -138,7 +138,7 @@ void condense_nodal_mass(const fem::NodalMass& full, const Condensation& elimina
   const auto num_nodes = static_cast<Eigen::Index>(elimination.nodes().size());
   SparseMatrix Ms(num_nodes, num_nodes);
   Ms.setFromTriplets(kept.begin(), kept.end());
-  out.nodal.Ms = linalg::shared_matrix(std::move(Ms));
+  out.nodal.Ms = linalg::SharedMatrix(std::move(Ms));
   for (const auto& node : elimination.dofs().node_dofs) {
     out.nodal.dofs.push_back({node[0], node[1], node[2]});
   }

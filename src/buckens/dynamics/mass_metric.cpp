@@ -33,6 +33,21 @@ Matrix symmetric_root(const Matrix& A) {
   return size.asDiagonal() * eigen.vectors * roots.asDiagonal();
 }
 
+Matrix loads_of(const body::Body& body) {
+  const auto N = body.flexible->rows.topRows(body.num_interface_rows());
+  return Matrix(SparseMatrix(N.transpose()));
+}
+
+Matrix response(const body::Body& body, const Matrix& loads) {
+  Matrix H(loads.rows(), loads.cols());
+  if (body.flexible->is_quasi_static) H.setZero();
+  for (Eigen::Index k = 0; k < H.cols() && !body.flexible->is_quasi_static; ++k) {
+    H.col(k) = linalg::conjugate_gradients(body.flexible->fe.M, loads.col(k));
+  }
+  body.flexible->sieve.apply(H);
+  return H;
+}
+
 }  // namespace
 
 Eigen::Matrix<double, 6, 6> frame_mobility(const body::Body& body, const Matrix3d& J) {
@@ -55,13 +70,8 @@ MassMetric::MassMetric(const model::Model& model) : model_(model) {
     Matrix H(body.num_dofs(), body.num_interface_rows());
     Matrix interface(H.cols(), H.cols());
     if (body.is_flexible()) {
-      const auto N = body.flexible->rows.topRows(body.num_interface_rows());
-      const Matrix loads = Matrix(SparseMatrix(N.transpose()));
-      if (body.flexible->is_quasi_static) H.setZero();
-      for (Eigen::Index k = 0; k < H.cols() && !body.flexible->is_quasi_static; ++k) {
-        H.col(k) = linalg::conjugate_gradients(body.flexible->fe.M, loads.col(k));
-      }
-      body.flexible->sieve.apply(H);
+      const Matrix loads = loads_of(body);
+      H = response(body, loads);
       interface = loads.transpose() * H;
     }
     interface_root_.push_back(symmetric_root(interface));
@@ -69,6 +79,20 @@ MassMetric::MassMetric(const model::Model& model) : model_(model) {
     interface_.push_back(std::move(interface));
     first_column_.push_back(num_columns_);
     num_columns_ += 6 + static_cast<int>(interface_root_.back().cols());
+  }
+}
+
+const Matrix& MassMetric::H(std::size_t body) const {
+  const body::Body& of = model_.bodies[body];
+  Matrix& H = H_[body];
+  if (H.rows() != of.num_dofs()) H = response(of, loads_of(of));
+  return H;
+}
+
+void MassMetric::let_go() const {
+  for (std::size_t b = 0; b < H_.size(); ++b) {
+    const body::Body& body = model_.bodies[b];
+    if (body.is_flexible() && body.flexible->fe.M.is_divided()) H_[b] = Matrix();
   }
 }
 

@@ -13,7 +13,7 @@ namespace buckens::dynamics {
 /// velocities, initial accelerations and the rank of the joint equations.
 ///
 /// Flexible bodies: H = Y M⁻¹Nᵀ by conjugate gradients, one solve per interface row, no
-/// factorisation.
+/// factorisation. Not from several threads at once.
 class MassMetric {
  public:
   explicit MassMetric(const model::Model& model);
@@ -23,8 +23,11 @@ class MassMetric {
   /// Frames and meshes. @param J current rotary inertia of each body [kg m²]
   std::vector<BodyCompliance> full(const std::vector<Eigen::Matrix3d>& J) const;
 
-  /// Y M⁻¹Nᵀ of one body, n×interface rows.
-  const linalg::Matrix& H(std::size_t body) const { return H_[body]; }
+  /// Y M⁻¹Nᵀ of one body, n×interface rows. The reference ends with let_go().
+  const linalg::Matrix& H(std::size_t body) const;
+  /// Frees H of bodies whose M other processes have: steps do not need it, and who asks next has it
+  /// made again.
+  void let_go() const;
   const linalg::Matrix& interface(std::size_t body) const { return interface_[body]; }
 
   /// Splits joint rows into independent ones and those that follow from them.
@@ -38,7 +41,8 @@ class MassMetric {
 
  private:
   const model::Model& model_;
-  std::vector<linalg::Matrix> H_, interface_, interface_root_;
+  mutable std::vector<linalg::Matrix> H_;
+  std::vector<linalg::Matrix> interface_, interface_root_;
   std::vector<Eigen::MatrixXd> frame_root_;  // 6×k per body
   std::vector<int> first_column_;
   int num_columns_ = 0;

@@ -26,4 +26,16 @@ inline void add_content(int row, int column, double value, std::array<std::uint6
   sum[1] += mixed((place ^ 0x243f6a8885a308d3U) + (bits << 32U | bits >> 32U));
 }
 
+/// Of both triangles of a sparse matrix the lower one counts, as of a divided matrix.
+template <class Sparse>
+std::array<std::uint64_t, 2> symmetric_content(const Sparse& A) {
+  std::array<std::uint64_t, 2> sum{};
+  for (int column = 0; column < A.cols(); ++column) {
+    for (typename Sparse::InnerIterator it(A, column); it; ++it) {
+      if (it.row() >= column) add_content(static_cast<int>(it.row()), column, it.value(), sum);
+    }
+  }
+  return sum;
+}
+
 }  // namespace buckens::linalg

@@ -69,6 +69,13 @@ void NodalVector::bring() const {
   shared_->is_elsewhere.store(false, std::memory_order_release);
 }
 
+Vector NodalVector::copied() const {
+  if (shared_ == nullptr || !shared_->is_elsewhere.load(std::memory_order_acquire)) return whole();
+  Vector out;
+  shared_->of->take(shared_->there, out);
+  return out;
+}
+
 void NodalVector::stay_here() {
   shared_->of = nullptr;
   shared_->there = {};

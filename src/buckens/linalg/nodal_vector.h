@@ -72,6 +72,8 @@ class NodalVector {
     if (shared_->is_elsewhere.load(std::memory_order_acquire)) bring();
     return shared_->numbers;
   }
+  /// The same for those who need them once: nothing stays here that was not here before.
+  Vector copied() const;
   /// The same numbers as a vector of other processes, to whom they are given if they have not got
   /// them. @pre at least kShared of them
   DividedVector divided(const std::shared_ptr<DividedVectors>& of) const;

@@ -17,17 +17,6 @@ namespace buckens::linalg {
 
 namespace {
 
-/// Of both triangles the lower one counts, as of a divided matrix.
-std::array<std::uint64_t, 2> content_of(const SparseMatrix& A) {
-  std::array<std::uint64_t, 2> sum{};
-  for (int column = 0; column < A.cols(); ++column) {
-    for (SparseMatrix::InnerIterator it(A, column); it; ++it) {
-      if (it.row() >= column) add_content(static_cast<int>(it.row()), column, it.value(), sum);
-    }
-  }
-  return sum;
-}
-
 Matrix weighted_product_of(double weight, const NodeBlocks& A, const Matrix& X) {
   Matrix out = Matrix::Zero(X.rows(), X.cols());
   for (Eigen::Index column = 0; column < A.size(); ++column) {
@@ -42,18 +31,17 @@ Matrix weighted_product_of(double weight, const NodeBlocks& A, const Matrix& X) 
 }  // namespace
 
 SymmetricMatrix::SymmetricMatrix(std::shared_ptr<const DividedMatrix> rows)
-    : here_(rows->size(), rows->size()), divided_(std::move(rows)) {}
+    : size_(rows->size()), divided_(std::move(rows)) {}
 
 SymmetricMatrix SymmetricMatrix::by_node(std::shared_ptr<const SparseMatrix> nodes) {
   SymmetricMatrix out;
-  out.here_.resize(3 * nodes->rows(), 3 * nodes->cols());
+  out.size_ = 3 * nodes->rows();
   out.nodes_ = std::move(nodes);
   return out;
 }
 
 SymmetricMatrix SymmetricMatrix::in_blocks(SparseMatrix&& A) {
-  SymmetricMatrix out;
-  out.here_.swap(A);
+  SymmetricMatrix out(std::move(A));
   out.here_.makeCompressed();
   if (out.cols() < NodeBlocks::kFewestVariables) return out;
   std::shared_ptr<const NodeBlocks> blocks = NodeBlocks::of(out.here_);
@@ -79,7 +67,7 @@ Vector SymmetricMatrix::near_diagonal(std::span<const int> lengths) const {
   if (divided_) return divided_->near_diagonal(lengths);
   Vector out(std::accumulate(lengths.begin(), lengths.end(), Eigen::Index{0}));
   Eigen::Index next = 0;
-  for (Eigen::Index column = 0; column < here_.cols(); ++column) {
+  for (Eigen::Index column = 0; column < size_; ++column) {
     for (int k = 0; k < lengths[static_cast<std::size_t>(column)]; ++k) {
       const Eigen::Index row = column + k;
       if (blocks_) {
@@ -133,8 +121,8 @@ bool SymmetricMatrix::operator==(const SymmetricMatrix& other) const {
 
 std::array<std::uint64_t, 2> SymmetricMatrix::content() const {
   if (blocks_) return blocks_->content();
-  if (nodes_ && !is_formed()) return content_of(of_variables(*nodes_));
-  return divided_ ? divided_->content() : content_of(here_);
+  if (nodes_ && !is_formed()) return symmetric_content(of_variables(*nodes_));
+  return divided_ ? divided_->content() : symmetric_content(here_);
 }
 
 SharedRowOrder SymmetricMatrix::row_order() const {
@@ -157,7 +145,7 @@ void SymmetricMatrix::share(const SymmetricMatrix& equal) const {
 }
 
 void SymmetricMatrix::drop() const {
-  SparseMatrix nothing(here_.rows(), here_.cols());
+  SparseMatrix nothing;
   here_.swap(nothing);
   nodes_.reset();
   blocks_.reset();

@@ -31,8 +31,8 @@ class SymmetricMatrix {
  public:
   SymmetricMatrix() = default;
   // NOLINTBEGIN(google-explicit-constructor): they are one
-  SymmetricMatrix(const SparseMatrix& A) : here_(A) {}
-  SymmetricMatrix(SparseMatrix&& A) { here_.swap(A); }
+  SymmetricMatrix(const SparseMatrix& A) : size_(A.rows()), here_(A) {}
+  SymmetricMatrix(SparseMatrix&& A) : size_(A.rows()) { here_.swap(A); }
   // NOLINTEND(google-explicit-constructor)
   /// One that is divided from the beginning.
   explicit SymmetricMatrix(std::shared_ptr<const DividedMatrix> rows);
@@ -47,6 +47,7 @@ class SymmetricMatrix {
   // Eigen's own moves copy.
   SymmetricMatrix(SymmetricMatrix&& from) noexcept { *this = std::move(from); }
   SymmetricMatrix& operator=(SymmetricMatrix&& from) noexcept {
+    size_ = from.size_;
     here_.swap(from.here_);
     nodes_.swap(from.nodes_);
     blocks_.swap(from.blocks_);
@@ -56,8 +57,8 @@ class SymmetricMatrix {
   }
   ~SymmetricMatrix() = default;
 
-  Eigen::Index rows() const { return here_.rows(); }
-  Eigen::Index cols() const { return here_.cols(); }
+  Eigen::Index rows() const { return size_; }
+  Eigen::Index cols() const { return size_; }
   Eigen::Index nonZeros() const;
   Vector diagonal() const;
   /// Of each column the entries of so many rows from the diagonal on, column after column, without
@@ -121,7 +122,8 @@ class SymmetricMatrix {
   void multiply(const double* x, double* y) const;
   void drop() const;
 
-  mutable SparseMatrix here_;  // without entries unless is_formed()
+  Eigen::Index size_ = 0;
+  mutable SparseMatrix here_;  // empty unless is_formed()
   // Of one that is not divided, or null.
   mutable std::shared_ptr<const SparseMatrix> nodes_;
   mutable std::shared_ptr<const NodeBlocks> blocks_;

@@ -163,7 +163,7 @@ void visit_memory(const base::SaveVisit& visit, const Model& model, RowMemory& m
 void visit_nodal(const base::SaveVisit& visit, const std::string& name, Eigen::Index n,
                  bool may_be_empty, linalg::NodalVector& value) {
   // Saving changes nothing, but asks for a vector that could be changed.
-  linalg::Vector numbers = visit.is_restoring() ? linalg::Vector() : value.whole();
+  linalg::Vector numbers = visit.is_restoring() ? linalg::Vector() : value.copied();
   may_be_empty ? visit.vector_or_none(name, numbers, n) : visit.vector(name, numbers, n);
   if (visit.is_restoring()) value = std::move(numbers);
 }

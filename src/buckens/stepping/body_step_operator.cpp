@@ -97,6 +97,7 @@ BodyStepOperator::BodyStepOperator(const body::FlexiblePart& part, const Scheme&
   rigid_row_values_ = row_values(part.sieve.Phi());
   if (inverse_.size() > 0 && part.num_dofs() < num_rows()) small_ = answers_by_variables();
   divide(source.vectors);
+  find_common(source);
 }
 
 void BodyStepOperator::find_row_answers() {
@@ -128,8 +129,18 @@ void BodyStepOperator::find_nodal(const FactorSource& source) {
         [this](const body::NodalMotion& known) { return known == *nodal_; },
         [this] { return nodal_; });
   }
+}
+
+/// Passes over the rows read the scalar mass matrix of a solid here, unless others make them.
+void BodyStepOperator::find_common(const FactorSource& source) {
+  if (!nodal_) return;
+  if (divided_) {
+    nodal_->scalar_mass().let_go();
+    part_->fe.shape.nodal.Ms.let_go();
+    return;
+  }
   common_ = {nodal_->mass(), nodal_.get(), source.exchange};
-  inertial_.read_mass_from(nodal_->mass());
+  inertial_.read_mass_from(nodal_->scalar_mass());
 }
 
 void BodyStepOperator::find_responses(const FactorSource& source) {

@@ -101,7 +101,7 @@ class BodyStepOperator final : public BodyAnswer {
   const body::NodalMotion* nodal() const { return nodal_.get(); }
   /// Null, or what other processes have of the body, who then work on the rows of its vectors.
   const DividedBody* divided() const { return divided_.get(); }
-  /// What passes over the rows read that other bodies may read, too.
+  /// What passes over the rows read that other bodies may read, too; nothing of a divided() body.
   const linalg::CommonTable& common() const { return common_; }
 
   /// Formed on each call: a step only needs its factor and its diagonal.
@@ -123,6 +123,7 @@ class BodyStepOperator final : public BodyAnswer {
  private:
   void find_factor(const linalg::MatrixSum& K_hat, const FactorSource& source);
   void find_nodal(const FactorSource& source);
+  void find_common(const FactorSource& source);
   void find_responses(const FactorSource& source);
   void find_row_answers();
   void divide(linalg::SharedStore* known);

@@ -22,8 +22,10 @@ std::shared_ptr<linalg::DividedVectors> vectors_of(const BodyStepOperator& op,
   const linalg::SharedRowOrder order = op.shared_factor()->row_order();
   if (const body::NodalMotion* nodal = op.nodal()) {
     return std::make_shared<linalg::DividedVectors>(
-        linalg::WholeNodes{&nodal->scalar_mass(), &nodal->positions(), &nodal->mass_moments(),
-                           order},
+        // That of the body itself: an equal body, whose nodal tables it may read, has let go of
+        // its.
+        linalg::WholeNodes{part.fe.shape.nodal.Ms.get(), &nodal->positions(),
+                           &nodal->mass_moments(), order},
         part.rows);
   }
   const fem::ShapeIntegrals& shape = part.fe.shape;

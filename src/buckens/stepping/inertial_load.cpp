@@ -18,6 +18,7 @@ constexpr double kProportional = 1e-14;
 /// Whether M is the scalar mass matrix, node by node.
 bool acts_by_node(const body::FlexiblePart& part, const body::NodalInertia& nodal) {
   if (nodal.empty()) return false;
+  if (!nodal.mass().Ms.is_here()) return true;  // only such bodies let go of it
   const Vector x = linalg::scattered_block(part.num_dofs(), 1, 5);
   Vector y(x.size());
   nodal.multiply(x, y);

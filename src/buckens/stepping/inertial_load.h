@@ -24,7 +24,7 @@ class InertialLoad {
  public:
   InertialLoad(const body::FlexiblePart& part, const Scheme& scheme);
   /// Reads a copy of the scalar mass matrix that several bodies have in common.
-  void read_mass_from(const linalg::NodeMatrix& copy) {
+  void read_mass_from(const linalg::SharedMatrix& copy) {
     if (is_by_node_ && nodal_.is_regular()) nodal_.read_from(copy);
   }
 

@@ -68,6 +68,10 @@ class LaggedCoupling {
   double load_size() const { return load_size_; }
   /// 1/K̂ᵢᵢ, which makes the norm; empty if there are no loads.
   const linalg::Vector& inverse_diagonal() const { return inverse_diagonal_; }
+  /// Frees that where other processes compare loads, so that nobody needs it here any more.
+  void let_go() {
+    if (divided_ != nullptr) inverse_diagonal_ = linalg::Vector();
+  }
   /// Whether take_over() changed the load, so that another solve is needed.
   bool load_changed() const { return load_changed_; }
 

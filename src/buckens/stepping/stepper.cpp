@@ -145,6 +145,9 @@ void Stepper::group_factors() {
     }
     group->add(*flexible_[b], b);
   }
+  for (const auto& body : flexible_) {
+    if (body) body->coupling.let_go();
+  }
 }
 
 template <class F>

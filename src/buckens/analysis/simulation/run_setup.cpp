@@ -128,6 +128,7 @@ void SimulationRun::begin_march(double start) {
   settings.threads = options_.threads;
   settings.exchange = options_.exchange;
   settings.released = prepared_->released;
+  metric_->let_go();
   march_.emplace(built_.model, settings, prepared_->rows_in_use, march);
   jump_.emplace(built_.model);  // it keeps what belongs to the steppers of a march
   steps_ = march.tolerance ? 0 : steps_taken_ + march.longest_steps;

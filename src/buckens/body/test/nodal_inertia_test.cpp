@@ -86,7 +86,7 @@ fem::ShapeIntegrals string_of_nodes(int count, int offset) {
   }
   linalg::SparseMatrix Ms(count, count);
   Ms.setFromTriplets(entries.begin(), entries.end());
-  out.nodal.Ms = linalg::shared_matrix(std::move(Ms));
+  out.nodal.Ms = linalg::SharedMatrix(std::move(Ms));
   return out;
 }
 

@@ -159,17 +159,16 @@ void set_mass_damping(FeModel& fe) {
   fe.damps_held_motion = first->damps_held_motion;
 }
 
-/// Solids of a large mesh, which other processes integrate; the other blocks are left.
-std::optional<SolidInertia> solids_elsewhere(Blocks& blocks, const MeshView& mesh,
-                                             const NodeParts& parts) {
+/// Solids of a large mesh, which other processes integrate, or null; the other blocks are left.
+std::shared_ptr<const ElementBlock> solids_elsewhere(Blocks& blocks, const MeshView& mesh) {
   if (!linalg::is_shared_work(mesh.dofs.num_dofs)) return {};
   const auto solids = std::find_if(blocks.begin(), blocks.end(), [](const auto& block) {
     return block->is_solid() && block->num_elements() > 0;
   });
   if (solids == blocks.end()) return {};
-  const auto taken = *solids;
+  auto taken = *solids;
   blocks.erase(solids);
-  return SolidInertia(solid_mass_made_elsewhere(taken, mesh.nodes, parts), mesh.nodes);
+  return taken;
 }
 
 /// @return the part of M that is not in Σ W_aa
@@ -186,24 +185,31 @@ SparseMatrix integrate_inertia(Blocks blocks, const MeshView& mesh, FeModel& fe)
   shape.com = moment.first / moment.mass;
 
   const int n = mesh.dofs.num_dofs;
-  const std::optional<SolidInertia> solids = solids_elsewhere(blocks, mesh, fe.parts);
+  const std::shared_ptr<const ElementBlock> solids = solids_elsewhere(blocks, mesh);
+  linalg::SharedMatrix::Make again;
   AssembledInertia inertia = assemble_inertia(blocks, mesh, shape.com);
   InertiaSum& sum = inertia.sum;
   SparseMatrix& Ms = inertia.scalar_mass;
   if (solids) {
-    solids->add_moments(mesh.dofs, shape.com, sum);
+    const SolidInertia made(solid_mass_made_elsewhere(solids, mesh.nodes, fe.parts), mesh.nodes);
+    made.add_moments(mesh.dofs, shape.com, sum);
     if (Ms.nonZeros() == 0) {
-      Ms = solids->scalar_mass();
+      Ms = made.scalar_mass();
+      again = solid_mass_again(solids, mesh.nodes, fe.parts);
     } else {
-      Ms += solids->scalar_mass();
+      Ms += made.scalar_mass();
     }
   }
-  for (std::size_t k = 0; k < sum.W.size(); ++k) shape.W[k] = taken_matrix(n, sum.W[k]);
+  const bool has_integrals =
+      std::any_of(sum.W.begin(), sum.W.end(), [](const auto& listed) { return !listed.empty(); });
+  for (std::size_t k = 0; has_integrals && k < sum.W.size(); ++k) {
+    shape.W[k] = taken_matrix(n, sum.W[k]);
+  }
   shape.c = std::move(sum.c);
   shape.C0 = sum.C0;
   shape.J0 = sum.C0.trace() * Eigen::Matrix3d::Identity() - sum.C0 + sum.J0_flywheel;
   if (Ms.nonZeros() > 0) {
-    shape.nodal = {linalg::shared_matrix(std::move(Ms)), translations(mesh.dofs)};
+    shape.nodal = {linalg::SharedMatrix(std::move(Ms), std::move(again)), translations(mesh.dofs)};
   }
   return taken_matrix(n, sum.M_flywheel);
 }

@@ -57,16 +57,19 @@ bool is_scalar(const ShapeIntegrals& shape, const SparseMatrix& flywheel) {
 linalg::SymmetricMatrix mass_matrix(const ShapeIntegrals& shape, const SparseMatrix& flywheel,
                                     int n) {
   const NodalMass& nodal = shape.nodal;
-  if (is_scalar(shape, flywheel) && nodal.is_numbered_by_node() && n == 3 * nodal.Ms->rows()) {
-    return linalg::SymmetricMatrix::by_node(nodal.Ms);
+  if (is_scalar(shape, flywheel) && nodal.is_numbered_by_node() && n == 3 * nodal.Ms.rows()) {
+    return linalg::SymmetricMatrix::by_node(nodal.Ms.pointer());
   }
   return mass_entries(shape, flywheel, n);
 }
 
 SparseMatrix mass_entries(const ShapeIntegrals& shape, const SparseMatrix& flywheel, int n) {
   if (is_scalar(shape, flywheel)) return mass_of_nodes(shape.nodal, n);
-  SparseMatrix M = shape.W[0] + shape.W[1];
-  M += shape.W[2];
+  SparseMatrix M(n, n);
+  if (shape.W[0].rows() == n) {
+    M = shape.W[0] + shape.W[1];
+    M += shape.W[2];
+  }
   M += flywheel;
   if (!shape.nodal.empty()) M += mass_of_nodes(shape.nodal, n);
   M.makeCompressed();

@@ -29,7 +29,7 @@ SparseMatrix matrix_of(MeshMatrix which, const MeshPart& part) {
     const int n = part.dofs.num_dofs;
     ShapeIntegrals shape;
     for (std::size_t k = 0; k < 3; ++k) shape.W[k] = taken_matrix(n, inertia.sum.W[k]);
-    shape.nodal = {linalg::shared_matrix(std::move(inertia.scalar_mass)), translations(part.dofs)};
+    shape.nodal = {linalg::SharedMatrix(std::move(inertia.scalar_mass)), translations(part.dofs)};
     return mass_entries(shape, taken_matrix(n, inertia.sum.M_flywheel), n);
   }
   SparseMatrix out;

@@ -170,7 +170,7 @@ class IntegralMaker {
     const auto count = static_cast<int>(body_.nodes.size());
     SparseMatrix Ms(count, count);
     Ms.setFromTriplets(entries.begin(), entries.end());
-    out_.nodal.Ms = linalg::shared_matrix(std::move(Ms));
+    out_.nodal.Ms = linalg::SharedMatrix(std::move(Ms));
     for (const auto& node : body_.dofs.node_dofs) {
       out_.nodal.dofs.push_back({node[0], node[1], node[2]});
     }

@@ -52,6 +52,21 @@ linalg::SymmetricMatrix solid_mass_made_elsewhere(const std::shared_ptr<const El
                                row_order(numbers, parts));
 }
 
+linalg::SharedMatrix::Make solid_mass_again(std::shared_ptr<const ElementBlock> solids,
+                                            const std::vector<Node>& nodes, NodeParts parts) {
+  Eigen::Matrix3Xd positions(3, static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    positions.col(static_cast<Eigen::Index>(node)) = nodes[node].position;
+  }
+  return [solids = std::move(solids), positions = std::move(positions), parts = std::move(parts)] {
+    std::vector<Node> places(static_cast<std::size_t>(positions.cols()));
+    for (std::size_t node = 0; node < places.size(); ++node) {
+      places[node].position = positions.col(static_cast<Eigen::Index>(node));
+    }
+    return solid_mass_made_elsewhere(solids, places, parts).copied();
+  };
+}
+
 DofMap one_per_node(std::size_t num_nodes) {
   DofMap out;
   for (std::size_t node = 0; node < num_nodes; ++node) {

@@ -7,6 +7,7 @@
 #include "buckens/fem/element/block.h"
 #include "buckens/fem/element/node_parts.h"
 #include "buckens/fem/element/shape_integrals.h"
+#include "buckens/linalg/shared_matrix.h"
 #include "buckens/linalg/symmetric_matrix.h"
 
 namespace buckens::fem {
@@ -40,6 +41,10 @@ class SolidInertia {
 linalg::SymmetricMatrix solid_mass_made_elsewhere(const std::shared_ptr<const ElementBlock>& solids,
                                                   const std::vector<Node>& nodes,
                                                   const NodeParts& parts);
+
+/// Makes Ms of the solids again, in this process. Holds the positions of the nodes.
+linalg::SharedMatrix::Make solid_mass_again(std::shared_ptr<const ElementBlock> solids,
+                                            const std::vector<Node>& nodes, NodeParts parts);
 
 /// One variable per node, of the number of the node.
 DofMap one_per_node(std::size_t num_nodes);
