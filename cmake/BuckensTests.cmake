@@ -96,12 +96,19 @@ add_library(kept_by_disk MODULE "${PROJECT_SOURCE_DIR}/tests/power/kept_by_disk.
 set_target_properties(kept_by_disk PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/test")
 target_link_libraries(kept_by_disk PRIVATE buckens_common ${CMAKE_DL_LIBS})
 
+# What goes wrong in one of several processes, for tests/test_mpi_failures.py.
+foreach(name failing_search lacking_memory)
+  add_library(${name} MODULE "${PROJECT_SOURCE_DIR}/tests/failures/${name}.cpp")
+  set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/test")
+  target_link_libraries(${name} PRIVATE buckens_common)
+endforeach()
+
 # Files that take some seconds, or that load the Python module: an entry each, with the seconds of the processor that a run
 # takes, by which ctest starts the longest first and both processors end together. A number need not be kept exact.
 set(BUCKENS_LONG_TESTS
     ball_bristles 22 continue 43 damaged_results 13 docs_commands 17 docs_site 30 example_warnings 49 examples 8 kill 38
-    machine_methods 22 mesh_contact 11 mesh_pairs 20 mpi 60 mpi_division 30 mpi_matrices 50 mpi_modes 50 mpi_vectors 10
-    packages 11 python 5 python_arrays 5 python_checkpoints 15 python_examples 30 python_memory 15 python_mistakes 5
+    machine_methods 22 mesh_contact 11 mesh_pairs 20 mpi 60 mpi_division 30 mpi_failures 15 mpi_frames 15 mpi_matrices 50
+    mpi_modes 50 mpi_vectors 10 packages 11 python 5 python_arrays 5 python_checkpoints 15 python_examples 30 python_memory 15 python_mistakes 5
     python_package 20 python_results 12 python_signals 5 python_verbs 5 rigid_group_statics 16 rigid_towers 52
     rigid_wedges 24 run 20 save_state 51 shards 7 solver 20 step_bodies 12 step_parts 78 study_dask 25 study_runs 20
     study_samples 5 sweep 12)
@@ -154,7 +161,7 @@ if(together)
 endif()
 # Processes that wait for each other: beside other tests they would wait for processors, too. What needs all processors
 # comes first, or the others would have to wait for it at the end.
-foreach(test cli.mpi cli.mpi_division cli.mpi_matrices cli.mpi_modes cli.mpi_vectors)
+foreach(test cli.mpi cli.mpi_division cli.mpi_failures cli.mpi_frames cli.mpi_matrices cli.mpi_modes cli.mpi_vectors)
   if(TEST ${test})
     set_tests_properties(${test} PROPERTIES PROCESSORS 2 COST 1000)
   endif()

@@ -186,6 +186,7 @@ class Ranks {
   bool receive_mesh(int nodes, SomeElements& elements, MeshShare& own);
   bool share_mesh(const std::vector<int>& first, const SomeElements& elements, MeshShare& own);
   bool find_modes_together(const Order& order, BuckensGridModes* modes);
+  bool have_all_failed();
   bool has_room_for_modes(const Order& order, const BuckensGridModes& modes);
   std::vector<double> share_motions(const Divided& M, const BuckensGridModes& modes,
                                     const double* all);

@@ -2,7 +2,9 @@
 // Modes of a divided body: all vectors have the runs of rows of its mass matrix.
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <new>
+#include <thread>
 #include <vector>
 
 #include "abort_alone.h"
@@ -15,6 +17,9 @@ namespace buckens_petsc {
 namespace {
 
 constexpr std::size_t kStiffness = 0, kMass = 1;  // in Order::of
+// How long processes that fail together may be apart, and how much longer the next one waits, so
+// that of several which do not know of all others one tells it.
+constexpr std::chrono::milliseconds kTogether{5000}, kAfterTheOther{200};
 // Vectors beside the basis: those of a product, and of SLEPc.
 constexpr int kOtherVectors = 16;
 
@@ -47,6 +52,21 @@ bool Ranks::has_room_for_modes(const Order& order, const BuckensGridModes& modes
     shared_->results.reserve(most);
     ::operator delete(::operator new(sizeof(double) * here * vectors));
   });
+}
+
+/// Whether a search has failed in all processes, which then tell it together. Otherwise the others
+/// are still searching, or wait for shapes.
+bool Ranks::have_all_failed() {
+  using Clock = std::chrono::steady_clock;
+  MPI_Request all = MPI_REQUEST_NULL;
+  MPI_Ibarrier(work_, &all);
+  int is_complete = 0;
+  const Clock::time_point end = Clock::now() + kTogether + rank_ * kAfterTheOther;
+  while (is_complete == 0 && Clock::now() < end) {
+    MPI_Test(&all, &is_complete, MPI_STATUS_IGNORE);
+    if (is_complete == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return is_complete != 0;
 }
 
 /// Rows of rigid motions here, one motion after the other.
@@ -125,12 +145,14 @@ bool Ranks::find_modes_together(const Order& order, BuckensGridModes* modes) {
   std::string reason;
   const ModeSearch search = library->find_modes(work_, problem, reason);
   if (search.end == ModeSearch::End::solve_failed) return false;  // all know the reason
-  // Whether the others have failed as well is not known: they may be waiting.
-  if (search.end == ModeSearch::End::out_of_memory) {
-    abort_alone(rank_, reason.c_str(), "use more memory");
-  }
-  if (search.end == ModeSearch::End::error) {
-    abort_alone(rank_, reason.c_str(), "take the method subspace");
+  if (search.has_failed()) {
+    if (have_all_failed()) {
+      set_reason(reason);
+      return false;
+    }
+    abort_alone(rank_, reason.c_str(),
+                search.end == ModeSearch::End::out_of_memory ? "use more memory"
+                                                             : "take the method subspace");
   }
   if (modes != nullptr) {
     modes->found = search.found;

@@ -66,6 +66,8 @@ struct ModeSearch {
   } end = End::converged;
   int found = 0, restarts = 0;
   long solves = 0;
+
+  bool has_failed() const { return end == End::error || end == End::out_of_memory; }
 };
 
 /// What the library of PETSc's solvers exports.
