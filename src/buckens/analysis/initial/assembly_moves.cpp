@@ -20,6 +20,8 @@ namespace {
 constexpr double kLargeMove = 1e-3;
 // The same, below which a motion is rounding.
 constexpr double kNoMove = 1e-9;
+// Share by which motions of parts that move alike may differ.
+constexpr double kMovedAlike = 1e-9;
 // Thousands of bodies in the wrong place are one mistake, not thousands.
 constexpr std::size_t kMostMovesTold = 10;
 
@@ -97,7 +99,8 @@ std::optional<AssemblyMove> move_of(const model::Model& model, const model::Whol
     const spatial::Pose& to = assembled.bodies[b].frame.X_WB;
     const Eigen::AngleAxisd turn(Eigen::Quaterniond(to.q * from.q.conjugate()));
     const double size = std::max((to.p - from.p).norm() / model.length, turn.angle());
-    if (size <= most) continue;
+    // Of parts that turn alike the first is told, whatever rounding makes of the others.
+    if (size <= most * (1.0 + kMovedAlike)) continue;
     most = size;
     out.emplace();
     out->translation = to.p - from.p;
