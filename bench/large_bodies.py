@@ -75,6 +75,36 @@ def tell_break_even(rows):
         print(f"{row['variables']} variables: the factor is quicker from {steps:.0f} steps on")
 
 
+def law_of_factor(measured, key, power, variables):
+    """A figure of the largest cube with a factor, for another number of variables."""
+    last = measured[-1]
+    return last[key] * (variables / last["variables"]) ** power
+
+
+def draw_break_even(axis, by_solver):
+    """Time of whole runs over their steps, for the largest cube of both solvers and for the largest of all."""
+    direct, iterative = by_solver["direct"], by_solver["iterative"]
+    steps = numpy.logspace(0, 5, 50)
+    largest = iterative[-1]
+    both = next(r for r in iterative if r["variables"] == direct[-1]["variables"])
+    # Operations of a factor grow as the square, its entries with the power 4/3.
+    predicted = {"setup_seconds": law_of_factor(direct, "setup_seconds", 2, largest["variables"]),
+                 "step_seconds": law_of_factor(direct, "step_seconds", 4 / 3, largest["variables"])}
+    for row, colour, style in ((direct[-1], "tab:blue", "-"), (both, "tab:orange", "-"), (predicted, "tab:blue", "--"),
+                               (largest, "tab:orange", "-")):
+        axis.loglog(steps, row["setup_seconds"] + steps * row["step_seconds"], style, color=colour)
+    at = (predicted["setup_seconds"] - largest["setup_seconds"]) / (largest["step_seconds"] - predicted["step_seconds"])
+    axis.plot(at, largest["setup_seconds"] + at * largest["step_seconds"], "ko", markersize=5)
+    axis.annotate(f"{at:.0f} steps,\nbut 24 GB are not enough", (at, largest["setup_seconds"] + at * largest["step_seconds"]),
+                  xytext=(1.3, 2e5), arrowprops={"arrowstyle": "-", "linewidth": 0.5})
+    for row, below in ((both, 0.3), (largest, 0.5)):
+        axis.text(1.1, below * row["setup_seconds"], f"{row['variables']:,} variables".replace(",", " "))
+    axis.set_ylim(bottom=10)
+    axis.set_xlabel("steps")
+    axis.set_ylabel("processor time of a run [s]")
+    axis.grid(True, which="major", linewidth=0.3)
+
+
 def draw(rows, file):
     import matplotlib
     matplotlib.use("Agg")
@@ -82,7 +112,7 @@ def draw(rows, file):
 
     by_solver = {name: sorted((r for r in rows if r["solver"] == name), key=lambda r: r["variables"])
                  for name in ("direct", "iterative")}
-    figure, (memory, time, setup) = pyplot.subplots(1, 3, figsize=(11, 3.6), constrained_layout=True)
+    figure, ((memory, time), (setup, whole)) = pyplot.subplots(2, 2, figsize=(9, 7), constrained_layout=True)
     n = numpy.logspace(4, 6.6, 50)
     for name, power, colour in (("direct", 4 / 3, "tab:blue"), ("iterative", 1, "tab:orange")):
         measured = by_solver[name]
@@ -103,7 +133,8 @@ def draw(rows, file):
         axis.set_xlabel("nodal variables")
         axis.grid(True, which="major", linewidth=0.3)
     memory.legend()
-    figure.suptitle("Cubes of hex8 solids: dots measured, dashed lines laws n$^{4/3}$ and n through the last one")
+    draw_break_even(whole, by_solver)
+    figure.suptitle("Cubes of hex8 solids: dots measured, dashed lines laws through the last one")
     figure.savefig(file, dpi=110)
 
 
