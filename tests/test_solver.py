@@ -6,6 +6,7 @@ Without the plug-in (build option BUCKENS_PETSC) only the messages are tested; t
 
 import os
 import re
+import shutil
 import subprocess
 
 import numpy
@@ -173,6 +174,60 @@ def test_an_automatic_choice_says_why(run):
     found, summary = run("auto", "--set", "bodies.block.solver=auto", "--set", "bodies.arm.solver=auto")
     note = [note for note in summary["notes"] if "solver" in note]
     assert len(note) == 2 and "body \"block\"" in note[0] and "direct, since" in note[0] and "GB" in note[0]
+    assert all((found[name] == expected[name]).all() for name in expected)
+
+
+# The address space that the program believes to have. A real limit so low would leave no room for its own libraries.
+LITTLE_MEMORY = """
+#define _GNU_SOURCE
+#include <stddef.h>
+#include <sys/resource.h>
+int getrlimit(__rlimit_resource_t resource, struct rlimit* limit) {
+  const int failed = prlimit(0, resource, NULL, limit);
+  if (resource == RLIMIT_AS) limit->rlim_cur = 600000;
+  return failed;
+}
+"""
+
+
+@pytest.fixture
+def little_memory(tmp_path):
+    """An environment in which the program believes that 0.6 MB is all there is."""
+    compiler = shutil.which("cc")
+    if compiler is None:
+        pytest.skip("no C compiler")
+    (tmp_path / "limit.c").write_text(LITTLE_MEMORY)
+    subprocess.run([compiler, "-shared", "-fPIC", "-o", "limit.so", "limit.c"], cwd=tmp_path, check=True)
+    return {**os.environ, "LD_PRELOAD": str(tmp_path / "limit.so")}
+
+
+AUTO = ("--set", "bodies.block.solver=auto", "--set", "bodies.arm.solver=auto",
+        "--set", "bodies.arm.mesh.box.divisions=[4, 1, 1]")
+
+
+@iterates
+def test_an_automatic_choice_iterates_where_memory_is_short(run, buckens, little_memory, tmp_path):
+    """The factor of the block takes more than half of the memory, that of the arm does not; results stay the same."""
+    expected, _ = run("direct", *AUTO)
+    summary = buckens("run", BLOCKS, "-o", "little", "--json", *AUTO, env=little_memory).must(0).json
+    block, arm = (note for note in summary["notes"] if "solver" in note)
+    sizes = re.search(r"body \"block\": `solver: auto` is iterative, since the factor of 480 variables is predicted to take (\S+) GB, "
+                      r"(\S+) GB while it is computed \(usable: 0.0003 GB\)$", block)
+    assert sizes and 0.0003 < float(sizes[2]) < 480 * 481 / 2 * 8e-9 and 0 < float(sizes[1]) <= float(sizes[2])
+    assert "body \"arm\"" in arm and "direct, since no factor of 60 variables" in arm
+    bodies = summary["bodies"]
+    assert bodies["block"]["factorisations"] == 0 and bodies["block"]["iterations_per_solve"] > 1
+    assert bodies["arm"]["factorisations"] == 1 and "iterations_per_solve" not in bodies["arm"]
+    assert 0 < largest_difference(sensors(tmp_path / "little"), expected) < 1e-8
+
+
+def test_an_automatic_choice_does_without_the_plug_in(run, buckens, little_memory, tmp_path):
+    expected, _ = run("direct", *AUTO)
+    away = {**little_memory, "BUCKENS_GRID_PLUGIN": "/nowhere/libbuckens_petsc.so"}
+    summary = buckens("run", BLOCKS, "-o", "little", "--json", *AUTO, env=away).must(0).json
+    assert any("block" in note and "direct, although the factor of 480 variables" in note and "no iterative solver" in note
+               for note in summary["notes"])
+    found = sensors(tmp_path / "little")
     assert all((found[name] == expected[name]).all() for name in expected)
 
 
