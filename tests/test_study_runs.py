@@ -221,17 +221,6 @@ def test_a_pool_that_breaks_keeps_what_is_finished(tmp_path):
     assert "interrupted" in text_of(tmp_path / "out")
 
 
-def test_progress_is_told(tmp_path, capfd):
-    told = []
-    buckens.sweep(MODEL, TABLE, tmp_path / "out", executor=cf.ThreadPoolExecutor(1), progress=told.append)
-    assert told and told[0].variants == 12 and told[0].done == 0
-    buckens.sweep(MODEL, TABLE, tmp_path / "more", executor=cf.ThreadPoolExecutor(1), progress=True)
-    assert "0 of 12 variants, 0 failed" in capfd.readouterr().err
-    seen = buckens.study.status(tmp_path / "out")
-    assert (seen.variants, seen.done, seen.failed, seen.running) == (12, 12, 0, [])
-    assert len(seen.slowest) == 5 and seen.slowest[0][1] >= seen.slowest[4][1] > 0 and seen.seconds_each > 0
-
-
 def test_says_what_is_wrong(tmp_path, monkeypatch):
     def call(match, kind=buckens.InputError, model=MODEL, table=TABLE, executor=None, out="out", **options):
         with cf.ThreadPoolExecutor(1) as threads, pytest.raises(kind, match=match):

@@ -118,6 +118,16 @@ class StudyJournal:
             for line in _lines(text[:whole]):
                 self.take(line)
 
+    def last_change(self) -> float:
+        """Returns when a worker last stored something, as time.time() does; 0 if none has."""
+        times = [0.0]
+        for path in self.folder.glob("*.jsonl"):
+            try:
+                times.append(path.stat().st_mtime)
+            except FileNotFoundError:  # being merged
+                pass
+        return max(times)
+
     def changed_file(self, row: Dict[str, Any]) -> Optional[str]:
         """Returns a file that had another content when the variant of a row read it; None if there is none."""
         return self._contents.changed_since(row)

@@ -7,6 +7,7 @@ import concurrent.futures as cf
 import math
 import os
 import pathlib
+import time
 import uuid
 from collections import deque
 from typing import Any, Deque, Dict, List, Optional, Tuple
@@ -41,7 +42,9 @@ class StudyRun:
         for key in [key for key, row in self._journal.rows.items() if _status(row) == "failed"]:
             del self._journal.rows[key]  # runs again, as it does in a sweep of the program
         self.kept = set(self._keys) & set(self._journal.rows)
-        self._journal.begin_study({"variants": dict(zip(self._keys, (name for name, _ in table.variants)))})
+        self._start = time.monotonic()
+        self._journal.begin_study({"variants": dict(zip(self._keys, (name for name, _ in table.variants))),
+                                   "started": time.time(), "kept": len(self.kept)})
         self._queue = self._waves(together)
         self._num_queued = sum(len(wave) for _, wave in self._queue)
         self._losses: Dict[str, int] = {}
@@ -109,7 +112,8 @@ class StudyRun:
         rows = [self._journal.rows[key] for key in self._keys if key in self._journal.rows]
         names = dict(zip(self._keys, (name for name, _ in self._table.variants)))
         begun = {names[key]: value for key, value in self._journal.begun.items() if key in names}
-        return Progress.of(len(self._keys), len(self.kept), rows, begun, len(self._flying))
+        kept = sum(1 for key in self._keys if key in self.kept)
+        return Progress.of(len(self._keys), kept, rows, begun, len(self._flying), time.monotonic() - self._start)
 
     def _next_task(self) -> Task:
         """Returns waves of one group for one task: enough for its intended duration, but no more than a worker's share."""
