@@ -6,6 +6,8 @@
 runs the size for which the rest of the study is made; here a few hundred variants show the same.
 """
 
+import collections
+import json
 import os
 import pathlib
 import random
@@ -21,7 +23,7 @@ import pytest
 sys.path.insert(0, str(pathlib.Path(__file__).parent / "support"))
 from python_module import PACKAGES, buckens, source  # noqa: E402 (found after the path is set)
 
-distributed = pytest.importorskip("distributed")
+distributed = pytest.importorskip("distributed", reason="python3-distributed is not installed")
 
 MODEL = source("tests/models/pendulum.yaml")
 SHORT = {"simulation.duration": "20 ms"}
@@ -62,6 +64,17 @@ class Cluster:
         os.killpg(process.pid, signal.SIGKILL)
         process.wait()
 
+    def await_scheduler(self):
+        """Until it listens: on a busy machine it takes longer to start than a client of little patience waits."""
+        host, port = self.address.split(":")
+        deadline = time.monotonic() + 60
+        while True:
+            try:
+                return socket.create_connection((host, int(port))).close()
+            except OSError:
+                assert time.monotonic() < deadline, "the scheduler does not start"
+                time.sleep(0.05)
+
     def close(self):
         for process in self.processes.values():
             if process.poll() is None:
@@ -74,6 +87,24 @@ def cluster(tmp_path):
     made = Cluster(tmp_path)
     yield made
     made.close()
+
+
+@pytest.fixture
+def stored(monkeypatch):
+    """How often workers have begun each variant, and stored its row: of the calls that end, before their files become one."""
+    from buckens.study_journal import StudyJournal
+
+    begun, ended, tidy = collections.Counter(), collections.Counter(), StudyJournal.tidy
+
+    def counted(journal):
+        for path in journal.folder.glob("*.jsonl"):
+            for line in map(json.loads, path.read_text().splitlines()):  # none is cut off: workers write lines at once
+                begun.update(line.get("begin", []))
+                ended.update([line["key"]] if "cells" in line else [])
+        tidy(journal)
+
+    monkeypatch.setattr(StudyJournal, "tidy", counted)
+    return begun, ended
 
 
 @pytest.fixture(scope="module")
@@ -100,6 +131,7 @@ def now_and_then(stop, rows, act, most, every):
 def sweep_disturbed(cluster, out, act, most, every, patience=60):
     stop = threading.Event()
     thread = threading.Thread(target=now_and_then, args=(stop, out / ".rows", act, most, every))
+    cluster.await_scheduler()
     with distributed.Client(cluster.address, timeout=patience) as client:
         client.wait_for_workers(2, timeout=60)
         thread.start()
@@ -110,8 +142,14 @@ def sweep_disturbed(cluster, out, act, most, every, patience=60):
             thread.join()
 
 
+def expect_nothing_done_twice(stored, lost):
+    """What was finished is not run again; begun twice is at most the wave of six that a lost worker had before it."""
+    begun, ended = stored
+    assert len(ended) == COUNT and set(ended.values()) == {1}
+    assert COUNT <= sum(begun.values()) <= COUNT + 6 * lost and set(begun) == set(ended)
 
-def test_workers_killed_at_random(cluster, serial, tmp_path):
+
+def test_workers_killed_at_random(cluster, serial, tmp_path, stored):
     engine, killed = random.Random(2), []
 
     def kill_one():
@@ -124,10 +162,14 @@ def test_workers_killed_at_random(cluster, serial, tmp_path):
     assert len(killed) >= 3
     assert {variant["status"] for variant in answer["variants"]} == {"done"}
     assert (tmp_path / "out" / "sweep.csv").read_text() == serial
+    expect_nothing_done_twice(stored, lost=len(killed))
 
 
-def test_a_scheduler_that_is_started_again(cluster, serial, tmp_path):
+def test_a_scheduler_that_is_started_again(cluster, serial, tmp_path, stored):
+    restarts = []
+
     def restart():
+        restarts.append(1)
         for name in ("scheduler", "worker1", "worker2"):
             cluster.kill(name)
         time.sleep(0.2)
@@ -136,8 +178,9 @@ def test_a_scheduler_that_is_started_again(cluster, serial, tmp_path):
             cluster.start_worker(number)
 
     answer = sweep_disturbed(cluster, tmp_path / "out", restart, most=1, every=COUNT * 100)
-    assert {variant["status"] for variant in answer["variants"]} == {"done"}
+    assert restarts and {variant["status"] for variant in answer["variants"]} == {"done"}
     assert (tmp_path / "out" / "sweep.csv").read_text() == serial
+    expect_nothing_done_twice(stored, lost=2)
 
 
 def test_a_scheduler_that_is_gone(cluster, serial, tmp_path):

@@ -10,7 +10,7 @@ import pathlib
 import time
 import uuid
 from collections import deque
-from typing import Any, Deque, Dict, List, Optional, Tuple
+from typing import Any, Deque, Dict, List, Optional, Set, Tuple
 
 from . import _core
 from .errors import Error, InputError, IoError
@@ -47,6 +47,7 @@ class StudyRun:
                                    "started": time.time(), "kept": len(self.kept)})
         self._queue = self._waves(together)
         self._num_queued = sum(len(wave) for _, wave in self._queue)
+        self._returned: Set[str] = set()  # first keys of queued waves that a worker may have begun
         self._losses: Dict[str, int] = {}
         self._flying: Dict["cf.Future[Done]", Tuple[Task, str]] = {}  # with the scheduler that has it
         self._per_variant: Optional[float] = None
@@ -75,7 +76,7 @@ class StudyRun:
         try:
             self._show()
             while self._queue or self._flying:
-                while self._queue and len(self._flying) < TASKS_AHEAD * self._workers.count:
+                while len(self._flying) < TASKS_AHEAD * self._workers.count and self._has_waves():
                     task = self._next_task()
                     future = self._workers.submit(run_task, self._study, task)
                     self._flying[future] = (task, self._workers.scheduler)
@@ -114,6 +115,19 @@ class StudyRun:
         begun = {names[key]: value for key, value in self._journal.begun.items() if key in names}
         kept = sum(1 for key in self._keys if key in self.kept)
         return Progress.of(len(self._keys), kept, rows, begun, len(self._flying), time.monotonic() - self._start)
+
+    def _has_waves(self) -> bool:
+        """Whether there are waves to hand out, now that they can be. Some of those of lost tasks may have been finished since: by
+        workers that had only lost their scheduler, or that were about to be ended."""
+        if self._queue:
+            self._workers.await_scheduler()
+        if self._returned:
+            self._journal.read()
+            self._queue = deque((group, wave) for group, wave in self._queue
+                                if any(key not in self._journal.rows for key, _ in wave))
+            self._num_queued = sum(len(wave) for _, wave in self._queue)
+            self._returned &= {wave[0][0] for _, wave in self._queue}
+        return bool(self._queue)
 
     def _next_task(self) -> Task:
         """Returns waves of one group for one task: enough for its intended duration, but no more than a worker's share."""
@@ -176,6 +190,7 @@ class StudyRun:
 
     def _return(self, *waves: Tuple[int, Wave]) -> None:
         self._queue.extendleft(waves)
+        self._returned |= {wave[0][0] for _, wave in waves}
         self._num_queued += sum(len(wave) for _, wave in waves)
 
     def _give_up(self, key: str, variant: Variant) -> None:

@@ -48,6 +48,7 @@ class Workers:
         self._client: Any = executor if hasattr(executor, "get_executor") else getattr(executor, "_client", None)
         self._asked = count
         self._known, self._next_question = 1, 0.0
+        self._connection: Any = None  # of the client to the scheduler that was asked last
         #: Changes when the scheduler of Dask is started again, which forgets what it was given.
         self.scheduler = ""
 
@@ -64,10 +65,10 @@ class Workers:
 
     def _ask_scheduler(self) -> None:
         """Updates the number of threads; keeps the last known one while the scheduler does not answer."""
-        now = time.monotonic()
-        if now < self._next_question:
+        now, connection = time.monotonic(), getattr(self._client, "scheduler_comm", None)
+        if now < self._next_question and connection is self._connection:
             return
-        self._next_question = now + 2.0
+        self._next_question, self._connection = now + 2.0, connection
         if self._client.status == "running":
             try:
                 about = self._client.scheduler_info()
@@ -84,7 +85,7 @@ class Workers:
         IoError
             If no executor is left.
         """
-        self._await_scheduler()
+        self.await_scheduler()
         deadline = time.monotonic() + _PATIENCE
         while True:
             try:
@@ -103,8 +104,14 @@ class Workers:
         if self._client is not None:
             self._ask_scheduler()
 
-    def _await_scheduler(self) -> None:
-        """Waits for the scheduler, which may be restarted; work submitted without it would be lost."""
+    def await_scheduler(self) -> None:
+        """Waits for the scheduler, which may be restarted; work submitted without it would be lost.
+
+        Raises
+        ------
+        IoError
+            If it does not answer.
+        """
         deadline = time.monotonic() + _PATIENCE
         while self._client is not None and self._client.status != "running":
             self._next_question = 0.0  # it may be another one then
