@@ -23,5 +23,9 @@ build_release all buckens_headers
 if ! grep -q '^BUCKENS_\(MPI\|PETSC\):BOOL=ON' build/release/CMakeCache.txt; then
   say "Tests of iterative solves and of several processes are skipped: ./test.sh --mpi has them"
 fi
+python="$(sed -n 's/^BUCKENS_PYTHON:FILEPATH=//p' build/release/CMakeCache.txt)"
+if ! "${python:-python3}" -c 'import distributed' 2>/dev/null; then
+  say "Tests of studies on a cluster of Dask are skipped: the package python3-distributed is not installed"
+fi
 say "Testing"
 exec ctest --preset release --parallel "$(nproc)" "$@"

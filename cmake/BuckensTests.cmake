@@ -108,10 +108,10 @@ endforeach()
 set(BUCKENS_LONG_TESTS
     ball_bristles 22 continue 43 damaged_results 13 docs_commands 17 docs_site 30 example_warnings 49 examples 8 kill 38
     machine_methods 22 mesh_contact 11 mesh_pairs 20 mpi 60 mpi_division 30 mpi_failures 15 mpi_frames 15 mpi_matrices 50
-    mpi_modes 50 mpi_vectors 10 packages 11 python 5 python_arrays 5 python_checkpoints 15 python_examples 30 python_memory 15 python_mistakes 5
-    python_package 20 python_results 12 python_signals 5 python_verbs 5 rigid_group_statics 16 rigid_towers 52
-    rigid_wedges 24 run 20 save_state 51 shards 7 solver 20 step_bodies 12 step_parts 78 study_dask 25 study_runs 20
-    study_samples 5 sweep 12)
+    mpi_modes 50 mpi_vectors 10 packages 11 python 5 python_arrays 5 python_checkpoints 15 python_examples 30 python_memory 15
+    python_mistakes 5 python_package 20 python_results 12 python_signals 5 python_verbs 5 rigid_group_statics 16 rigid_towers 52
+    rigid_wedges 24 run 20 save_state 51 shards 7 solver 20 step_bodies 12 step_parts 78 study_arguments 6 study_dask 25
+    study_mpi 8 study_progress 5 study_runs 20 study_samples 5 sweep 12)
 # Others share a process: to start Python with pytest and NumPy takes longer than most of them. Six take some eight seconds.
 set(BUCKENS_FILES_PER_PROCESS 6)
 set(BUCKENS_PROCESS_SECONDS 8)
@@ -161,7 +161,8 @@ if(together)
 endif()
 # Processes that wait for each other: beside other tests they would wait for processors, too. What needs all processors
 # comes first, or the others would have to wait for it at the end.
-foreach(test cli.mpi cli.mpi_division cli.mpi_failures cli.mpi_frames cli.mpi_matrices cli.mpi_modes cli.mpi_vectors)
+foreach(test cli.mpi cli.mpi_division cli.mpi_failures cli.mpi_frames cli.mpi_matrices cli.mpi_modes cli.mpi_vectors
+        cli.study_mpi)
   if(TEST ${test})
     set_tests_properties(${test} PROPERTIES PROCESSORS 2 COST 1000)
   endif()

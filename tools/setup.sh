@@ -21,8 +21,8 @@ buckens_packages=(
   python3-dev python3-venv pybind11-dev mypy
   python3-matplotlib python3-pandas python3-xarray python3-meshio python3-scipy python3-distributed python3-nbclient python3-ipykernel python3-yaml python3-jsonschema
 )
-# For large bodies: iterative solves, runs over several processes (-DBUCKENS_MPI=ON).
-buckens_mpi_packages=(libpetsc-real-dev libslepc-real-dev libptscotch-dev openmpi-bin)
+# For large bodies: iterative solves, runs over several processes (-DBUCKENS_MPI=ON), and studies on processes of mpirun.
+buckens_mpi_packages=(libpetsc-real-dev libslepc-real-dev libptscotch-dev openmpi-bin python3-mpi4py)
 # Whether Node.js and npm belong to them, which make the viewer page, and a browser, which tests it.
 buckens_needs_node=yes
 buckens_needs_browser=yes
