@@ -306,7 +306,13 @@ def test_the_tutorial_works_as_it_is_written(tmp_path, monkeypatch, capsys):
     first, objects, arrays, stopped, controller, force, setting, signal, study, whole = blocks
     names = {}
     exec(first, names)
-    assert (tmp_path / "mid.png").stat().st_size > 1000 and names["summary"]["steps"] == 2000
+    assert names["summary"]["steps"] == 2000
+    assert (tmp_path / "mid.png").read_bytes().startswith(b"\x89PNG") and (tmp_path / "mid.png").stat().st_size > 1000
+    drawn = matplotlib.pyplot.gca()
+    (line,) = drawn.lines
+    assert (drawn.get_xlabel(), drawn.get_ylabel(), drawn.get_title()) == ("t [s]", "[m]", names["run"].title)
+    assert [text.get_text() for text in drawn.get_legend().get_texts()] == ["mid.y"]
+    assert (line.get_xdata() == names["run"].time).all() and (line.get_ydata() == names["run"]["mid.y"]).all()
     exec(objects.replace('"1 s"', '"10 ms"'), names)
     exec(stopped.replace("0.2", "2e-3"), names)
     assert names["sim"].time == pytest.approx(10e-3, rel=1e-12)

@@ -119,7 +119,31 @@ def test_statistics_and_main_effects(tmp_path):
     pytest.importorskip("matplotlib")
     design = study.sensitivity({"a": "0 to 1", "b": "0 m to 1 m"}, 64)
     study.picture(design, design.values[:, 0], "a", file=tmp_path / "study.png")
-    assert (tmp_path / "study.png").stat().st_size > 10_000
+    assert (tmp_path / "study.png").read_bytes().startswith(b"\x89PNG") and (tmp_path / "study.png").stat().st_size > 10_000
+
+
+def test_a_picture_shows_results_effects_and_indices(tmp_path):
+    pytest.importorskip("matplotlib")
+    design = study.sensitivity({"a": "0 to 1", "rod.b": "0 m to 1 m"}, 64)
+    values = 3 * design.values[:, 0]
+    figure = study.picture(design, values, "height [m]", file=tmp_path / "study.svg")
+    histogram, by_a, by_b, shares = figure.axes[:4]
+    assert [(place.get_xlabel(), place.get_ylabel()) for place in (histogram, by_a, by_b)] == [
+        ("height [m]", "variants"), ("a", "height [m]"), ("rod.b [m]", "height [m]")]
+    assert shares.get_ylabel() == "share of the variance" and [text.get_text() for text in shares.get_xticklabels()] == ["a", "b"]
+    assert sum(bar.get_height() for bar in histogram.patches) == len(design)
+    told = study.statistics(values)
+    legend = [text.get_text() for text in histogram.get_legend().get_texts()]
+    assert legend == [f"mean {told.mean:.4g}"] + [f"{100 * share:.0f} % {told.quantiles[share]:.4g}" for share in (0.05, 0.5, 0.95)]
+    points, effect = by_a.lines
+    assert np.array_equal(points.get_xdata(), design.values[:, 0]) and np.array_equal(points.get_ydata(), values)
+    assert np.array_equal(effect.get_xydata(), study.main_effects(design, values)["a"])
+    heights = [bar.get_height() for bar in shares.patches]
+    indices = study.sobol_indices(design, values)
+    assert heights == [indices.first["a"], indices.first["rod.b"], indices.total["a"], indices.total["rod.b"]]
+    assert "<!-- rod.b [m] -->" in (tmp_path / "study.svg").read_text()
+    # Without indices there are three, all in use.
+    assert len(study.picture(study.sobol({"a": "0 to 1", "b": "0 to 1"}, 8), range(8), file=tmp_path / "even.svg").axes) == 3
 
 
 def test_columns_of_a_table_are_found(tmp_path):
