@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from typing import Any, Dict, List, Sequence, Tuple, Union
+from typing import Any, Dict, List, Mapping, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -191,7 +191,10 @@ def _in_one_unit(*quantities: Quantity) -> Tuple[List[float], str]:
     return [number * (size / factor if size != factor else 1.0) for number, _, size, _ in parts], unit
 
 
-def distributions_of(quantities: Dict[str, Any]) -> Dict[str, Distribution]:
+def distributions_of(quantities: Any) -> Dict[str, Distribution]:
+    if not isinstance(quantities, Mapping):
+        raise InputError(f"quantities: expected distributions by path, such as {{\"parameters.L\": \"1 m +- 1 mm\"}}, "
+                         f"found {quantities!r}")
     if not quantities:
         raise InputError("nothing varies; give distributions by path, {\"parameters.L\": \"1 m +- 1 mm\"}")
     return {path: distribution_of(path, given) for path, given in quantities.items()}

@@ -11,6 +11,7 @@ import numpy as np
 
 from .errors import InputError, IoError
 from .model import PathLike
+from .study_checks import check_count, check_seed, numbers_of
 from .study_distributions import Array
 from .study_sampling import Samples
 
@@ -80,10 +81,14 @@ def statistics(values: Any, quantiles: Sequence[float] = (0.05, 0.25, 0.5, 0.75,
     quantiles
         Between 0 and 1.
     """
-    good = _good(np.asarray(values, dtype=np.float64))
+    shares = numbers_of(quantiles, "quantiles").ravel()
+    for share in shares:
+        if not 0 <= share <= 1:
+            raise InputError(f"quantiles: expected numbers from 0 to 1, found {share:g}; the median is 0.5")
+    good = _good(numbers_of(values, "values"))
     deviation = float(np.std(good, ddof=1)) if len(good) > 1 else float("nan")
     return Statistics(len(good), float(np.mean(good)), deviation, deviation / float(np.sqrt(len(good))),
-                      {share: float(np.quantile(good, share)) for share in quantiles})
+                      {float(share): float(np.quantile(good, share)) for share in shares})
 
 
 def main_effects(samples: Samples, values: Any, bins: int = 5) -> Dict[str, Array]:
@@ -104,6 +109,7 @@ def main_effects(samples: Samples, values: Any, bins: int = 5) -> Dict[str, Arra
         For each path an array (bins, 2): mean of the quantity, in its unit, and mean of the result over the variants in a
         bin. Bins hold equal numbers of variants; a quantity with fewer values than bins has one bin for each.
     """
+    check_count(bins, 1, "bins")
     results_ = _rows(samples, values)
     out = {}
     for path, column in zip(samples.columns, samples.values.T):
@@ -155,6 +161,8 @@ def sobol_indices(samples: Samples, values: Any, resamples: int = 200, seed: int
     """
     if samples.kind != "sensitivity":
         raise InputError(f"sobol_indices: the samples are of the kind {samples.kind!r}; make them by buckens.study.sensitivity")
+    check_count(resamples, 0, "resamples")
+    check_seed(seed)
     parts = _rows(samples, values).reshape(-1, samples.base)
     parts = parts[:, np.all(np.isfinite(parts), axis=0)]
     if parts.shape[1] < 2:
@@ -181,7 +189,7 @@ def _indices(parts: Array) -> "tuple[Array, Array]":
 
 
 def _rows(samples: Samples, values: Any) -> Array:
-    out = np.asarray(values, dtype=np.float64)
+    out = numbers_of(values, "values")
     if out.shape != (len(samples),):
         raise InputError(f"expected a result for each of the {len(samples)} samples, found an array of shape {out.shape}")
     return out
@@ -206,6 +214,13 @@ def picture(samples: Samples, values: Any, label: str = "result", file: Optional
         What the result is called.
     file
         Saves the figure, by its ending as .png, .svg or .pdf.
+
+    Raises
+    ------
+    InputError
+        If the file has another ending that matplotlib does not know.
+    IoError
+        If the file cannot be written.
     """
     results_ = _rows(samples, values)
     told = statistics(results_)
@@ -214,6 +229,8 @@ def picture(samples: Samples, values: Any, label: str = "result", file: Optional
     columns = min(count, 3)
     rows = -(-count // columns)
     figure = _figure(file is not None, figsize=(4.2 * columns, 3.2 * rows), layout="constrained")
+    if file is not None:
+        _check_ending(file, figure)
     axes = figure.subplots(rows, columns, squeeze=False)
     places = list(axes.ravel())
     _draw_distribution(places[0], _good(results_), told, label)
@@ -228,8 +245,19 @@ def picture(samples: Samples, values: Any, label: str = "result", file: Optional
     for place in places[count:]:
         place.set_axis_off()
     if file is not None:
-        figure.savefig(os.fspath(file))
+        try:
+            figure.savefig(os.fspath(file))
+        except OSError as error:
+            raise IoError(f"{os.fspath(file)}: cannot write the picture: {error.strerror or error}") from None
     return figure
+
+
+def _check_ending(file: PathLike, figure: Any) -> None:
+    ending = os.path.splitext(os.fspath(file))[1][1:].lower()
+    known = figure.canvas.get_supported_filetypes()
+    if ending not in known:
+        raise InputError(f"{os.fspath(file)}: cannot write a picture of this kind; give the file an ending such as .png, .svg or "
+                         f".pdf (matplotlib knows {', '.join(sorted(known))})")
 
 
 def _figure(for_a_file: bool, **options: Any) -> Any:

@@ -10,6 +10,7 @@ import numpy as np
 
 from .errors import InputError
 from .model import ModelLike, Overrides, PathLike
+from .study_checks import check_count, check_seed
 from .study_distributions import Array, Distribution, distributions_of
 from .study_effects import results
 from .study_sampling import Samples
@@ -27,7 +28,7 @@ class Optimum(NamedTuple):
 
 
 def minimize(model: ModelLike, ranges: Mapping[str, Any], result: "str | Callable[[Mapping[str, Any]], Any]", out: PathLike,
-             executor: Optional[ExecutorLike] = None, population: int = 16, generations: int = 20, tolerance: float = 1e-3,
+             executor: Optional[ExecutorLike] = None, population: Optional[int] = None, generations: int = 20, tolerance: float = 1e-3,
              seed: int = 0, set: Overrides = None) -> Optimum:  # noqa: A002
     """Minimises a result within ranges of quantities, by ``scipy.optimize.differential_evolution``.
 
@@ -45,20 +46,23 @@ def minimize(model: ModelLike, ranges: Mapping[str, Any], result: "str | Callabl
     out
         Directory, with a folder per generation. Repeating the call skips finished generations.
     population, generations, tolerance
-        Variants per generation, at least five per quantity; maximum number of generations; relative spread of results at
-        which the iteration ends.
+        Variants per generation, at least five per quantity, by default 16 or that; maximum number of generations; relative
+        spread of results at which the iteration ends.
     seed
         Of the random numbers.
     """
     from scipy.optimize import differential_evolution
 
-    distributions = distributions_of(dict(ranges))
+    distributions = distributions_of(ranges)
     for path, distribution in distributions.items():
         if distribution.kind != "uniform":
             raise InputError(f"{path}: expected a range, such as \"9 mm to 11 mm\", found {distribution!r}")
     bounds = [distribution.parameters[:2] for distribution in distributions.values()]
-    if population < 5 * len(bounds):
-        population = 5 * len(bounds)
+    size = _population(population, len(bounds))
+    check_count(generations, 1, "generations")
+    check_seed(seed)
+    if not isinstance(tolerance, (int, float)) or not 0 <= tolerance < np.inf:
+        raise InputError(f"tolerance: expected a number of at least 0, such as 1e-3, found {tolerance!r}")
     folder = pathlib.Path(out)
     sizes: List[int] = []
 
@@ -68,7 +72,7 @@ def minimize(model: ModelLike, ranges: Mapping[str, Any], result: "str | Callabl
         sizes.append(len(table))
         return _run(model, distributions, table, result, place, executor, set)
 
-    start = _start(bounds, population, seed)
+    start = _start(bounds, size, seed)
     answer = differential_evolution(generation, bounds, maxiter=generations, init=start, tol=tolerance, seed=seed, polish=False,
                                     updating="deferred", vectorized=True)
     return Optimum(dict(zip(distributions, map(float, answer.x))), float(answer.fun), sum(sizes), answer)
@@ -82,6 +86,14 @@ def _run(model: ModelLike, distributions: Dict[str, Distribution], table: Array,
     if values.shape != (len(table),):
         raise InputError(f"the function `result` gave an array of shape {values.shape} for {len(table)} variants")
     return np.where(np.isfinite(values), values, np.inf)
+
+
+def _population(population: Optional[int], num_quantities: int) -> int:
+    least = 5 * num_quantities
+    if population is None:
+        return max(16, least)
+    check_count(population, least, "population", f"five per quantity, of which there are {num_quantities}")
+    return population
 
 
 def _start(bounds: List[Any], population: int, seed: int) -> Array:

@@ -8,6 +8,7 @@ from typing import Any, Dict, List, Mapping, Optional, Sequence
 import numpy as np
 
 from .errors import InputError
+from .study_checks import check_count, check_seed
 from .study_distributions import Array, Distribution, distributions_of
 
 
@@ -63,8 +64,8 @@ def grid(quantities: Mapping[str, Any], count: int = 5) -> Samples:
     count
         Number of values of each quantity, at the medians of intervals of equal probability.
     """
-    distributions = distributions_of(dict(quantities))
-    _check_count(count, 1, "count")
+    distributions = distributions_of(quantities)
+    check_count(count, 1, "count")
     if count ** len(distributions) > 100_000:
         raise InputError(f"grid: {count} values of {len(distributions)} quantities are {count ** len(distributions)} "
                          "variants, more than 100000; take fewer, or a Latin hypercube")
@@ -87,8 +88,9 @@ def latin_hypercube(quantities: Mapping[str, Any], count: int, seed: int = 0) ->
     """
     from scipy.stats import qmc
 
-    distributions = distributions_of(dict(quantities))
-    _check_count(count, 1, "count")
+    distributions = distributions_of(quantities)
+    check_count(count, 1, "count")
+    check_seed(seed)
     return _from_shares(distributions, qmc.LatinHypercube(len(distributions), seed=seed).random(count), "latin-hypercube")
 
 
@@ -102,8 +104,9 @@ def sobol(quantities: Mapping[str, Any], count: int, seed: int = 0) -> Samples:
     count
         Number of rows; a power of two is best.
     """
-    distributions = distributions_of(dict(quantities))
-    _check_count(count, 1, "count")
+    distributions = distributions_of(quantities)
+    check_count(count, 1, "count")
+    check_seed(seed)
     return _from_shares(distributions, _sobol_points(len(distributions), count, seed), "sobol")
 
 
@@ -118,8 +121,9 @@ def sensitivity(quantities: Mapping[str, Any], count: int, seed: int = 0) -> Sam
     quantities, count, seed
         As for :func:`sobol`.
     """
-    distributions = distributions_of(dict(quantities))
-    _check_count(count, 2, "count")
+    distributions = distributions_of(quantities)
+    check_count(count, 2, "count")
+    check_seed(seed)
     if count & (count - 1):
         raise InputError(f"sensitivity: expected a power of two as count, found {count}; for example 64, 128 or 256")
     size = len(distributions)
@@ -145,8 +149,3 @@ def _sobol_points(dimensions: int, count: int, seed: int) -> Array:
     # SciPy warns about counts that are not powers of two; the points are the same.
     power = int(np.ceil(np.log2(max(count, 1))))
     return np.asarray(sequence.random_base2(power)[:count])
-
-
-def _check_count(count: Any, least: int, what: str) -> None:
-    if not isinstance(count, (int, np.integer)) or isinstance(count, bool) or count < least:
-        raise InputError(f"{what}: expected a whole number of at least {least}, found {count!r}")

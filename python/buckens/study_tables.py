@@ -6,15 +6,15 @@ from __future__ import annotations
 import csv
 import os
 import pathlib
-from typing import Any, List, Mapping, NamedTuple, Sequence, Tuple, Union
+from typing import Any, List, Mapping, NamedTuple, Sequence, Tuple, Union, cast
 
 from . import _core
 from .errors import InputError
 from .model import PathLike
 from .yaml_text import _flow
 
-#: A CSV file, values by path (all combinations are run), or a pandas.DataFrame with a row per variant.
-TableLike = Union[PathLike, Mapping[str, Sequence[Any]], Any]
+#: A CSV file, values by path (all combinations are run), or a row per variant: a list of dictionaries or a pandas.DataFrame.
+TableLike = Union[PathLike, Mapping[str, Sequence[Any]], Sequence[Mapping[str, Any]], Any]
 
 
 class VariantTable(NamedTuple):
@@ -24,9 +24,47 @@ class VariantTable(NamedTuple):
     variants: List[Tuple[str, List[str]]]
 
 
-def is_frame(table: Any) -> bool:
-    """Whether a table is a pandas.DataFrame or similar."""
-    return hasattr(table, "columns") and hasattr(table, "itertuples")
+class _Rows:
+    """A list of dictionaries, with what is used of a pandas.DataFrame."""
+
+    def __init__(self, rows: Sequence[Any]) -> None:
+        self._rows = rows
+        for number, row in enumerate(rows, 1):
+            if not isinstance(row, Mapping):
+                raise InputError(f"row {number} of the table: expected a dictionary of values by path, such as "
+                                 f"{{\"parameters.speed\": 100}}, found {row!r}; for rows without names give "
+                                 "pandas.DataFrame(rows, columns=[...])")
+        self.columns: List[Any] = list(rows[0]) if rows else []
+        for number, row in enumerate(rows, 1):
+            odd = sorted(map(str, set(row) ^ set(self.columns)))
+            if odd:
+                raise InputError(f"row {number} of the table: expected the same quantities as in row 1, but only one of them has "
+                                 f"{', '.join(odd)}; repeat the value of the model where a variant does not change it")
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    def itertuples(self, index: bool = False, name: Any = None) -> Any:
+        return (tuple(row[path] for path in self.columns) for row in self._rows)
+
+
+def frame_of(table: Any) -> Any:
+    """Returns a table with a row per variant that is in memory: a pandas.DataFrame or similar, or a list of dictionaries; None for
+    a file.
+
+    Raises
+    ------
+    InputError
+        If it is none of these.
+    """
+    if isinstance(table, (str, os.PathLike)):
+        return None
+    if hasattr(table, "columns") and hasattr(table, "itertuples"):
+        return table
+    if isinstance(table, (list, tuple)):
+        return _Rows(table)
+    raise InputError("table: expected a CSV file, values by path, a list of dictionaries, a pandas.DataFrame or samples of "
+                     f"buckens.study, found {table!r}")
 
 
 def ranges_of(table: Mapping[str, Sequence[Any]]) -> List[str]:
@@ -67,7 +105,7 @@ def table_of(table: TableLike, folder: pathlib.Path) -> VariantTable:
     Parameters
     ----------
     folder
-        Folder for the file that passes a DataFrame to the library.
+        Folder for the file that passes rows in memory to the library.
 
     Raises
     ------
@@ -79,8 +117,9 @@ def table_of(table: TableLike, folder: pathlib.Path) -> VariantTable:
             raise InputError("the table has no variants; give it values by path, "
                              "{\"parameters.speed\": [100, 150]}")
         return VariantTable(*_core.combinations(ranges_of(table)))
-    if is_frame(table):
+    frame = frame_of(table)
+    if frame is not None:
         file = folder / "table.csv"
-        write_frame(table, file)
+        write_frame(frame, file)
         return VariantTable(*_core.read_table(str(file)))
-    return VariantTable(*_core.read_table(os.fspath(table)))
+    return VariantTable(*_core.read_table(os.fspath(cast(PathLike, table))))

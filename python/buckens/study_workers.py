@@ -10,6 +10,7 @@ import time
 from typing import Any, Callable, Optional, Union
 
 from .errors import Error, InputError, IoError
+from .study_checks import check_count
 
 #: A number of local processes, an executor, a Dask Client, or a function that creates an executor.
 ExecutorLike = Union[int, "cf.Executor", Callable[[], Any], Any]
@@ -21,6 +22,8 @@ class Workers:
     """Submits work to an executor, and replaces a broken one where possible."""
 
     def __init__(self, executor: ExecutorLike, count: Optional[int] = None) -> None:
+        if count is not None:
+            check_count(count, 1, "workers", "leave it out where the executor reports how many it has")
         self._make: Optional[Callable[[], Any]] = None
         self._is_own = True
         if isinstance(executor, int) and not isinstance(executor, bool):
@@ -55,7 +58,7 @@ class Workers:
     @property
     def count(self) -> int:
         """Number of tasks that run in parallel, as far as known."""
-        if self._asked:
+        if self._asked is not None:
             return self._asked
         if self._client is not None:
             self._ask_scheduler()

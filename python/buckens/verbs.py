@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 import tempfile
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union, cast
 
 from .errors import InputError
 from .live_page import LivePage
@@ -18,7 +18,7 @@ from .model import ModelLike, Overrides, PathLike
 from .program import call, changes_of, file_of, options_of
 from .study_progress import ProgressLike
 from .study_runs import sweep_on
-from .study_tables import TableLike, is_frame, ranges_of, write_frame
+from .study_tables import TableLike, frame_of, ranges_of, write_frame
 from .study_workers import ExecutorLike
 
 Quantity = Union[str, float]
@@ -118,17 +118,19 @@ def sweep(model: ModelLike, table: TableLike, out: PathLike, together: Optional[
     out
         Directory for the table and, without an executor, the runs.
     table
-        A CSV file with a row per variant, a pandas.DataFrame, or values by path, all combinations of which
-        are run: ``{"bodies.rod.beam.elements": [4, 8, 16]}``.
+        A row per variant, as a CSV file, a pandas.DataFrame or a list of dictionaries
+        (``[{"parameters.speed": 100, "gravity.1": 0}, ...]``), or values by path, all combinations of which are run:
+        ``{"bodies.rod.beam.elements": [4, 8, 16]}``.
     together
         Number of variants that advance together.
     executor
         A number of processes, an executor of concurrent.futures or mpi4py.futures, a Dask Client, or a function
         that creates an executor, which is then replaced if it loses a process.
     progress
-        True prints lines on the standard error stream; a function is called with a :class:`buckens.study.Progress`.
+        With an executor: True prints lines on the standard error stream; a function is called with a
+        :class:`buckens.study.Progress`.
     workers
-        Number of workers, if the executor does not report it.
+        Number of workers, at least 1, if the executor does not report it.
     shard
         (i, n): runs only part i of n, counted from 1, as a task of a job array; :func:`buckens.merge_sweep` joins
         the parts. Not with an executor, which distributes the variants itself.
@@ -154,14 +156,21 @@ def sweep(model: ModelLike, table: TableLike, out: PathLike, together: Optional[
     with tempfile.TemporaryDirectory(prefix="buckens-") as folder:
         if isinstance(table, Mapping):
             variants = [word for change in ranges_of(table) for word in ("--vary", change)]
-        elif is_frame(table):
-            variants = [os.path.join(folder, "table.csv")]
-            write_frame(table, variants[0])
         else:
-            variants = [os.fspath(table)]
+            variants = [_table_file(table, folder)]
         with file_of(model) as path:
             return call("sweep", [path, *variants, *options_of(out=out, together=together, shard=part),
                                   *changes_of(set)])
+
+
+def _table_file(table: TableLike, folder: str) -> str:
+    """Returns the file of a table; writes rows in memory to one in the folder."""
+    frame = frame_of(table)
+    if frame is None:
+        return os.fspath(cast(PathLike, table))
+    file = os.path.join(folder, "table.csv")
+    write_frame(frame, file)
+    return file
 
 
 def _shard(shard: Tuple[int, int]) -> str:
