@@ -74,6 +74,22 @@ def test_executors_make_the_table_of_the_program(tmp_path):
         assert text_of(tmp_path / name) == expected.replace(",done,", ",kept,")
 
 
+def test_columns_of_the_hdf5_table_have_units(tmp_path):
+    """In attributes: names of data sets have none, as in results.h5."""
+    h5py = pytest.importorskip("h5py")
+    buckens.sweep(MODEL, {"gravity.1": [1, 2]}, tmp_path, executor=cf.ThreadPoolExecutor(1), set=SHORT)
+    rows = list(csv.DictReader((tmp_path / "sweep.csv").open()))
+    units = {}
+    with h5py.File(tmp_path / "sweep.h5") as file:
+        for data in file.values():
+            column, unit = (value.decode() if isinstance(value, bytes) else value for value in (data.attrs["column"], data.attrs.get("unit", "")))
+            units[column] = unit
+            if "[" in column:
+                assert unit == column.partition("[")[2].partition("]")[0]
+                assert list(data[:]) == [float(row[column]) for row in rows]
+    assert set(units) == set(rows[0]) and units["tip.y [m] max"] == "m" and units["status"] == ""
+
+
 def test_models_and_tables_of_all_kinds(tmp_path):
     pandas = pytest.importorskip("pandas")
     model = buckens.load(MODEL, set=SHORT)
