@@ -117,7 +117,7 @@ TEST(SummaryJson, HoldsTheFiguresOfARun) {
   summary.title = "crank";
   summary.finished = true;
   summary.steps = 1000;
-  summary.wall_seconds = {2.0, 0.5, 1.5, {{"solve", 1.0}}};
+  summary.wall_seconds = {2.0, 0.5, 1.5, {{"solve", 1.0}}, {{"factor", 0.25}}};
   summary.bodies.push_back({"rod", 96, 1, 1001, 975, "first-order", {{"mode_ratio", 0.02}}});
   summary.setup_solves = 12;
   summary.newton_iterations = {2500, 2.5, 4};
@@ -130,6 +130,7 @@ TEST(SummaryJson, HoldsTheFiguresOfARun) {
   EXPECT_EQ(json["steps"], 1000);
   EXPECT_EQ(json["wall_seconds"]["stepping"], 1.5);
   EXPECT_EQ(json["wall_seconds"]["phases"]["solve"], 1.0);
+  EXPECT_EQ(json["wall_seconds"]["preparation"]["factor"], 0.25);
   EXPECT_EQ(json["bodies"]["rod"]["dof"], 96);
   EXPECT_EQ(json["bodies"]["rod"]["factorisations"], 1);
   EXPECT_EQ(json["bodies"]["rod"]["solves"], 1001);
