@@ -1,17 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """What goes wrong in one of several processes, while others wait for it: one message, and all end."""
 
-import os
-import pathlib
 import subprocess
 
 import pytest
 
-from conftest import PROGRAM
+from conftest import BINARY, PROGRAM
 from mpi_runs import ENVIRONMENT, MPIRUN, several
 from test_mpi_modes import write_model
 
-LIBRARIES = pathlib.Path(os.environ["BUCKENS_BINARY_DIR"]) / "test"
+LIBRARIES = BINARY / "test"
 
 
 def library(name):

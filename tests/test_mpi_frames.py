@@ -87,6 +87,7 @@ def test_parts_of_solids_are_distributed(buckens, mpirun, tmp_path):
         solves = summary_of(out)["bodies"]["bar"]["solves"] / summary_of(out)["steps"]
         assert measures["messages_per_step"] > 5 * (count - 1) * solves
         assert measures["bytes_per_step"] > 0
+        assert summary_of(out)["wall_seconds"]["preparation"]["factor"] > 0
         assert measures["bytes_of_whole_matrices"] == scalar_mass(LENGTH) + 2 * scalar_mass(LENGTH // 2)
     assert measures["border_share"] > 0, "parts are divided by place"
     # Here the mesh is large enough until it is cut, and each part is too small.

@@ -68,6 +68,7 @@ def test_results_are_those_of_a_factor(run, coupling):
         assert 1 < body["iterations_per_solve"] < 40
         assert body["seconds_per_solve"] > 0
         assert "iterations_per_solve" not in direct["bodies"][name]
+    assert summary["wall_seconds"]["preparation"]["factor"] > 0, "of the multigrid"
     # They are equal, so that one solver serves both.
     assert summary["bodies"]["block"]["solver_bytes"] > 0 == summary["bodies"]["arm"]["solver_bytes"]
 

@@ -11,6 +11,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/base/stopwatch.h"
+#include "buckens/base/timed_phase.h"
 #include "buckens/base/work.h"
 #include "buckens/linalg/finite_matrix.h"
 #include "buckens/linalg/grid_library.h"
@@ -87,6 +88,7 @@ void IterativeSolver::share(const MatrixSum& A, const Matrix& motions) {
 
 /// @param matrix its entries; the rest is found here
 void IterativeSolver::make(BuckensGridMatrix matrix, const Matrix& motions) {
+  const base::TimedPhase phase("factor");
   solver_->plugin = &grid_solver();
   const base::Stopwatch watch;
   base::Work work;

@@ -14,6 +14,7 @@
 
 #include "buckens/base/errors.h"
 #include "buckens/base/free_memory.h"
+#include "buckens/base/timed_phase.h"
 #include "buckens/linalg/cholmod_factor.h"
 #include "buckens/linalg/column_maker.h"
 #include "buckens/linalg/divided_graph.h"
@@ -67,6 +68,7 @@ std::vector<int> places_in_factor(const ColumnGraph& graph) {
 class SharedFactor final : public Factor {
  public:
   explicit SharedFactor(const MatrixSum& A) : size_(A.size()), plugin_(grid_solver()) {
+    const base::TimedPhase phase("factor");
     A.require_finite();
     FactorWork work(size_);
     ColumnSource columns(A, Triangles::lower);

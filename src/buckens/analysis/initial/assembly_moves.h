@@ -10,7 +10,7 @@
 namespace buckens::analysis {
 
 /// How far position assembly moved a body from its place in the model file. For a body with several
-/// frames, that of the part that moved most.
+/// frames, that of the part that moved most; of those that moved alike but for rounding, the first.
 struct AssemblyMove {
   std::string body;
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< of the mass centre, world axes [m]

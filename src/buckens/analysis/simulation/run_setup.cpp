@@ -224,7 +224,7 @@ void SimulationRun::set_lowest_frequency(int body, double omega) {
 
 void SimulationRun::record_into(results::RecordSink& sink) {
   const auto start = Clock::now();
-  base::take_phases();
+  base::take_phases();  // of a change of state in between, which is no set-up
   std::optional<base::TimedPhase> phase(std::in_place, "records");
   recording_.emplace(RunRecording::Followed{built_, *work_, *statistics_, *observer_}, plan_, sink);
   if (restored_) {
