@@ -17,9 +17,9 @@
 #include "solid_block.h"
 #include "stopwatch.h"
 
+#include "buckens/base/allowed_threads.h"
 #include "buckens/base/free_memory.h"
 #include "buckens/linalg/blas_kernels.h"
-#include "buckens/linalg/factor_threads.h"
 #include "buckens/linalg/sparse_cholesky.h"
 
 namespace {
@@ -79,7 +79,7 @@ json measure(const SolidBlock& block, double budget, bool with_reference) {
     buckens::base::return_free_memory();
   }
   for (const int threads : {2, 1}) {
-    const buckens::linalg::FactorThreads allowed(threads);
+    const buckens::base::AllowedThreads allowed(threads);
     const Stopwatch factorisation;
     const SparseCholesky factor(A);
     out["factorisation"][std::to_string(threads)] = factorisation.seconds();

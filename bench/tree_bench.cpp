@@ -19,8 +19,8 @@
 #include "solid_block.h"
 #include "stopwatch.h"
 
+#include "buckens/base/allowed_threads.h"
 #include "buckens/linalg/blas_kernels.h"
-#include "buckens/linalg/factor_threads.h"
 #include "buckens/linalg/sparse_cholesky.h"
 
 namespace {
@@ -40,7 +40,7 @@ json measure(const SolidBlock& block, double budget, int most_threads) {
     const auto fe = block.assembled();
     A = buckens::bench::step_matrix(fe);
   }
-  const buckens::linalg::FactorThreads allowed(most_threads);
+  const buckens::base::AllowedThreads allowed(most_threads);
   const SparseCholesky factor(A);
   json out = {{"element", block.element()},
               {"divisions", block.shape()},

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The program starts no unrequested threads."""
 
+import json
 import os
 import pathlib
 import time
 
+import h5py
+import numpy as np
 import pytest
 
 DOOR = """\
@@ -66,6 +69,30 @@ def test_one_thread_unless_asked(start, tmp_path, model, arguments):
     assert process.returncode == 0, err
     # Pending results are written once a second: the recorder of a run has its own timer thread.
     assert most == (2 if arguments[0] == "run" else 1)
+
+
+FIELDS = BLOCK.replace("10 ms, step", "2 ms, step").replace("title: A block", "title: Fields of a block") + (
+    "output: {every: 0.5 ms, fields: {every: 0.5 ms, record: [displacement, velocity, stress, strain, von-mises, "
+    "principal-stress, strain-energy-density]}}\n")
+
+
+def test_records_are_the_same_by_threads(buckens, tmp_path):
+    """Energies, stresses and fields of a body that is large enough for threads to share its records."""
+    (tmp_path / "model.yaml").write_text(FIELDS)
+    results = []
+    for threads in ("1", "2", "3"):
+        buckens("run", "model.yaml", "-q", "-o", threads, "--threads", threads)
+        with h5py.File(tmp_path / threads / "results.h5") as file:
+            values = {}
+            file.visititems(lambda name, found: values.update({name: found[()]}) if isinstance(found, h5py.Dataset) else None)
+        results.append(values)
+        assert any("principal" in name for name in values) and any("solid_stress" in name for name in values)
+        summary = json.loads((tmp_path / threads / "summary.json").read_text())
+        results[-1]["measures"] = np.array(json.dumps(summary["bodies"]))
+    for other in results[1:]:
+        assert other.keys() == results[0].keys()
+        for name, values in results[0].items():
+            assert np.array_equal(values, other[name], equal_nan=values.dtype.kind == "f"), name
 
 
 def test_threads_that_were_asked_for(start, tmp_path):

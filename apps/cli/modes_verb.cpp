@@ -16,10 +16,10 @@
 #include "buckens/analysis/vibration/body_vibration.h"
 #include "buckens/analysis/vibration/record.h"
 #include "buckens/analysis/vibration/system_vibration.h"
+#include "buckens/base/allowed_threads.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/nearest.h"
 #include "buckens/files/output_file.h"
-#include "buckens/linalg/factor_threads.h"
 #include "buckens/run_store/run_directory.h"
 
 namespace buckens::cli {
@@ -90,7 +90,7 @@ std::vector<analysis::VibrationReport> analyse(const model::BuiltModel& built,
 }
 
 ExitCode modes(const ModesArguments& arguments, bool json) {
-  const linalg::FactorThreads threads(arguments.threads);
+  const base::AllowedThreads threads(arguments.threads);
   const auto built = read_and_build(arguments.model, arguments.overrides);
   const std::string& title = built->description.title;
   const auto reports = analyse(*built, arguments);

@@ -26,6 +26,7 @@
 #include "buckens/analysis/simulation/checkpoints.h"
 #include "buckens/analysis/simulation/output_plan.h"
 #include "buckens/analysis/simulation/simulation.h"
+#include "buckens/base/allowed_threads.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/version.h"
 #include "buckens/base/work.h"
@@ -63,6 +64,7 @@ std::unique_ptr<model::BuiltModel> read_model_to_run(const RunArguments& argumen
                      "there is no `simulation:`, so the duration is unknown. Add, for instance, "
                      "`simulation: {duration: 1 s, step: 1 ms}`, or use `buckens check`.");
   }
+  const base::AllowedThreads threads(arguments.threads);
   return build(std::move(description));
 }
 
@@ -295,8 +297,8 @@ void add_run_verb(CLI::App& program, Invocation& invocation) {
                 "State how far each sensor may be off, by repeating the run with half the\n"
                 "step, finer meshes, and more of what the model reduces");
   verb.add_option("--threads", arguments->threads,
-                  "Number of threads, which advance bodies concurrently and share the solves of\n"
-                  "large ones; 1 by default. Results are bitwise identical")
+                  "Number of threads, which advance bodies concurrently and share the assembly,\n"
+                  "solves and records of large ones; 1 by default. Results are bitwise identical")
       ->check(CLI::Range(1, kMostThreads));
   verb.add_option("--factors", arguments->factors,
                   "Folder in which large factors are kept and looked up: a second run with the\n"

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "buckens/base/allowed_threads.h"
 #include "buckens/base/errors.h"
 #include "buckens/files/output_file.h"
 #include "buckens/run_store/state_file.h"
@@ -37,7 +38,10 @@ SimulationHandle::SimulationHandle(std::shared_ptr<const ModelHandle> model,
   }
   compute([&] {
     model->call([&] {
-      built_ = model->built_with(std::move(forces), signals);
+      {
+        const base::AllowedThreads threads(settings.threads);
+        built_ = model->built_with(std::move(forces), signals);
+      }
       *origin = built_->model.origin;
       set_up(settings);
     });

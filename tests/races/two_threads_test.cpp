@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "buckens/base/allowed_threads.h"
 #include "buckens/base/task_pool.h"
-#include "buckens/linalg/factor_threads.h"
 #include "buckens/linalg/sparse_cholesky.h"
 
 namespace buckens::linalg {
@@ -63,7 +63,7 @@ TEST(TwoThreads, MakeOneFactor) {
   const SparseMatrix A = grid(8);
   const Matrix B = Matrix::Ones(A.rows(), 1);
   const Matrix alone = SparseCholesky(A).solve(B);
-  const FactorThreads two(2);
+  const base::AllowedThreads two(2);
   EXPECT_EQ(SparseCholesky(A).solve(B), alone);
 }
 

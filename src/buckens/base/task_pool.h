@@ -52,4 +52,14 @@ void run_tasks(TaskPool* pool, int count, Task&& task) {
   }
 }
 
+/// Runs task(begin, end) for as many ranges as there are threads, which together are 0 … count − 1.
+template <class Task>
+void run_ranges(TaskPool* pool, int count, Task&& task) {
+  const int ranges = pool != nullptr ? pool->available() : 1;
+  const auto begin = [&](int range) {
+    return static_cast<int>(static_cast<long>(count) * range / ranges);
+  };
+  run_tasks(pool, ranges, [&](int range) { task(begin(range), begin(range + 1)); });
+}
+
 }  // namespace buckens

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "buckens/base/task_pool.h"
 #include "buckens/body/coupling_level.h"
 #include "buckens/body/inertia_invariants.h"
 #include "buckens/body/marker.h"
@@ -77,6 +78,13 @@ struct FlexiblePart {
   bool is_reduced() const { return recovery.is_dense(); }
   /// The mesh with its nodes and elements.
   const fem::FeModel& mesh() const { return full_mesh ? *full_mesh : fe; }
+  /// Whether what is done with all of the mesh takes longer than to wake threads.
+  bool is_large() const {
+    constexpr int kManyVariables = 3000;
+    return mesh().dofs.num_dofs >= kManyVariables;
+  }
+  /// The pool, or null where it would take longer than the calling thread alone.
+  TaskPool* if_worth(TaskPool* pool) const { return is_large() ? pool : nullptr; }
   /// Nodal variables of mesh() from those of the equations of motion.
   linalg::Vector nodal(const linalg::Vector& d) const { return recovery.apply(d); }
   /// Coordinates closest to given nodal variables in the mass metric: (TᵀMT)⁻¹TᵀM d.

@@ -96,7 +96,7 @@ FreeFreeModes solve_dense(const FlexiblePart& part) {
 /// Residuals and errors of some of the modes.
 void judge(const FlexiblePart& part, const ModeOperator& op, Eigen::Index first, Eigen::Index count,
            FreeFreeModes& out) {
-  TaskPool* pool = op.pool.get();
+  TaskPool* pool = op.pool;
   const Matrix shapes = out.shapes.middleCols(first, count);
   const Vector scale = variable_scale(part.fe.M, part.fe.K);
   const Matrix Mphi = linalg::symmetric_product(part.fe.M, shapes, pool);

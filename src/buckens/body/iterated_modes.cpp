@@ -108,7 +108,7 @@ IteratedModes iterate_modes(const SymmetricMatrix& M, const Sieve& sieve, ModeOp
   // mixed with vibrations of the same eigenvalue.
   const bool may_meet_rigid_ones = op.penalty > 0.0 && 20 * count > M.rows();
   linalg::InverseIterationSettings settings = settings_for(count, tolerance);
-  settings.pool = op.pool.get();
+  settings.pool = op.pool;
   const linalg::InversePairs pairs = linalg::largest_inverse_pairs(
       M, op.inverse, may_meet_rigid_ones ? sieve.Phi() : Matrix(M.rows(), 0), settings);
   check_complete(pairs, count);
@@ -138,7 +138,7 @@ IteratedModes iterate_with_shift(const SymmetricMatrix& M, const SymmetricMatrix
       if (search.is_too_high(square)) far_below = square;
       return !far_below.has_value();
     };
-    settings.pool = op->pool.get();
+    settings.pool = op->pool;
     const linalg::InversePairs pairs =
         linalg::largest_inverse_pairs(M, op->inverse, Matrix(M.rows(), 0), settings);
     solves += pairs.solves;

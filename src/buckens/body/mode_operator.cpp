@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "buckens/base/allowed_threads.h"
 #include "buckens/base/errors.h"
 #include "buckens/linalg/dense_cholesky.h"
 #include "buckens/linalg/dense_ldlt.h"
-#include "buckens/linalg/factor_threads.h"
 #include "buckens/linalg/matrix_sum.h"
 #include "buckens/linalg/sparse_lu.h"
 #include "buckens/linalg/tall_products.h"
@@ -94,20 +94,18 @@ ModeOperator sieved_operator(const SymmetricMatrix& M, const SymmetricMatrix& K,
   ModeOperator op;
   op.shift = shift;
   op.factor_entries = factor->num_factor_entries();
-  if (linalg::FactorThreads::allowed() > 1 && M.rows() >= kManyVariables) {
-    op.pool = std::make_shared<TaskPool>(linalg::FactorThreads::allowed());
-  }
+  if (M.rows() >= kManyVariables) op.pool = base::AllowedThreads::pool();
   // Yᵀ and Y commute with K + μM; both are applied so that rigid motion never grows to a size
   // that rounding cannot remove.
   const auto P = std::make_shared<const Matrix>(sieve.P());
   const auto Phi = std::make_shared<const Matrix>(sieve.Phi());
   op.inverse = [factor, P, Phi, pool = op.pool](Matrix& F) {
     const auto remove = [&](const Matrix& columns, const Matrix& rows) {
-      const Matrix shares = linalg::inner_products(rows, F, pool.get());
-      linalg::subtract_combinations(columns, shares, F, pool.get());
+      const Matrix shares = linalg::inner_products(rows, F, pool);
+      linalg::subtract_combinations(columns, shares, F, pool);
     };
     remove(*P, *Phi);
-    factor->solve_in_place(F, pool.get());
+    factor->solve_in_place(F, pool);
     remove(*Phi, *P);
   };
   op.multiply = [&K, &M, shift](const Vector& x) { return shifted_product(K, shift, M, x); };

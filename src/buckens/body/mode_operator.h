@@ -22,8 +22,8 @@ struct ModeOperator {
   /// A itself and its inverse, for estimating its condition number; size of A.
   std::function<linalg::Vector(const linalg::Vector&)> multiply, solve;
   linalg::Vector scale;  ///< scales the diagonal of A to one
-  /// Threads for what is done with large vectors; none where linalg::FactorThreads allows only one.
-  std::shared_ptr<TaskPool> pool;
+  /// For what is done with large vectors, as long as base::AllowedThreads allows it; null: none.
+  TaskPool* pool = nullptr;
 };
 
 /// K + μM. @param K,M outlive it

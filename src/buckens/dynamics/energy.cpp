@@ -28,7 +28,8 @@ body::DeformedMoments inertia(const body::Body& body, const model::BodyState& st
 }
 
 /// Its products with M and K are asked for together: other processes may have the matrices.
-DeformationEnergy energy_of_deformation(const body::Body& body, const model::BodyState& s) {
+DeformationEnergy energy_of_deformation(const body::Body& body, const model::BodyState& s,
+                                        TaskPool* pool) {
   if (body.is_flexible()) {
     const auto of = s.d.others();
     if (of && of == s.d_dot.others()) return deformation_energy(body, s, of);
@@ -43,7 +44,8 @@ DeformationEnergy energy_of_deformation(const body::Body& body, const model::Bod
     linalg::multiply({{&part.fe.M, &s.d_dot.whole(), &momenta}});
   } else {
     linalg::multiply(
-        {{&part.fe.M, &s.d_dot.whole(), &momenta}, {&part.fe.K, &s.d.whole(), &forces}});
+        {{&part.fe.M, &s.d_dot.whole(), &momenta}, {&part.fe.K, &s.d.whole(), &forces}},
+        part.if_worth(pool));
     out.strain = 0.5 * s.d.whole().dot(forces);
   }
   out.kinetic = 0.5 * s.d_dot.whole().dot(momenta);
@@ -62,13 +64,13 @@ double kinetic_energy(const body::Body& body, const model::BodyState& state,
 
 }  // namespace
 
-Energy energy(const model::Model& model, const model::State& state) {
+Energy energy(const model::Model& model, const model::State& state, TaskPool* pool) {
   Energy out;
   const Vector3d gravity = gravity_at(model, state.memory.signals);
   for (std::size_t b = 0; b < model.bodies.size(); ++b) {
     const body::Body& body = model.bodies[b];
     const model::BodyState& s = state.bodies[b];
-    const DeformationEnergy deformation = energy_of_deformation(body, s);
+    const DeformationEnergy deformation = energy_of_deformation(body, s, pool);
     out.kinetic += kinetic_energy(body, s, deformation);
     out.gravity -= body.mass * gravity.dot(s.frame.X_WB.p);
     out.strain += deformation.strain;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "buckens/base/task_pool.h"
 #include "buckens/model/model.h"
 #include "buckens/model/state.h"
 
@@ -18,7 +19,8 @@ struct Energy {
 /// Energies at a state, FM (13): with J₀ for `none` and rigid bodies, with J₀ + J₁ for
 /// `first-order`, exact otherwise.
 /// Cost: a product with M and K per flexible body.
-Energy energy(const model::Model& model, const model::State& state);
+/// @param pool shares the products of large bodies, or null
+Energy energy(const model::Model& model, const model::State& state, TaskPool* pool = nullptr);
 
 /// Difference between the gravitational energy relative to the origin of the model file and
 /// Energy::gravity, by the gravity that the model begins with: a constant, so that what an event

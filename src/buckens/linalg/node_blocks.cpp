@@ -2,6 +2,7 @@
 #include "buckens/linalg/node_blocks.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -30,13 +31,17 @@ bool is_same(double a, double b) {
 
 }  // namespace
 
-std::shared_ptr<const NodeBlocks> NodeBlocks::of(const SparseMatrix& A) {
+std::shared_ptr<const NodeBlocks> NodeBlocks::of(const SparseMatrix& A, TaskPool* pool) {
   if (A.rows() != A.cols() || A.rows() % 3 != 0 || A.rows() == 0 || !A.isCompressed()) return {};
   auto out = std::make_shared<NodeBlocks>();
   if (!out->take_rows(A)) return {};
-  out->take_entries(A);
+  out->take_entries(A, pool);
   out->list_left();
-  if (!out->is_mirrored(A)) return {};
+  std::atomic<bool> is_mirrored = true;
+  run_ranges(pool, static_cast<int>(A.cols()), [&](int begin, int end) {
+    if (!out->is_mirrored(A, begin, end)) is_mirrored = false;
+  });
+  if (!is_mirrored) return {};
   return out;
 }
 
@@ -69,10 +74,10 @@ bool NodeBlocks::take_rows(const SparseMatrix& A) {
   return blocks * of_block <= kWorthwhile * of_entry * static_cast<double>(entries_);
 }
 
-void NodeBlocks::take_entries(const SparseMatrix& A) {
+void NodeBlocks::take_entries(const SparseMatrix& A, TaskPool* pool) {
   values_.assign(9 * rows_.size(), 0.0);
   masks_.assign(rows_.size(), 0);
-  for (int column = 0; column < A.cols(); ++column) {
+  const auto take_column = [&](int column) {
     auto position = as_index(begin_[as_index(column / 3)]);
     for (SparseMatrix::InnerIterator it(A, column); it; ++it) {
       const int row = static_cast<int>(it.row());
@@ -82,7 +87,10 @@ void NodeBlocks::take_entries(const SparseMatrix& A) {
       values_[9 * position + as_index(entry)] = it.value();
       masks_[position] = static_cast<Mask>(masks_[position] | 1U << entry);
     }
-  }
+  };
+  run_ranges(pool, static_cast<int>(num_nodes()), [&](int begin, int end) {
+    for (int column = 3 * begin; column < 3 * end; ++column) take_column(column);
+  });
   if (std::all_of(masks_.begin(), masks_.end(), [](Mask mask) { return mask == kWhole; })) {
     std::vector<Mask>().swap(masks_);
   }
@@ -103,9 +111,9 @@ void NodeBlocks::list_left() {
   }
 }
 
-bool NodeBlocks::is_mirrored(const SparseMatrix& A) const {
+bool NodeBlocks::is_mirrored(const SparseMatrix& A, int begin, int end) const {
   // Entries below the diagonal blocks are those stored. Those above must be the same ones.
-  for (int column = 0; column < A.cols(); ++column) {
+  for (int column = begin; column < end; ++column) {
     Column found(*this, column);
     for (SparseMatrix::InnerIterator it(A, column); it; ++it, ++found) {
       if (!found || found.row() != it.row() || !is_same(found.value(), it.value())) return false;

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "buckens/base/task_pool.h"
 #include "buckens/linalg/matrix_types.h"
 
 namespace buckens::linalg {
@@ -24,7 +25,7 @@ class NodeBlocks {
   /// Null where A does not consist of nodes with entries of their own, is not symmetric to the last
   /// bit, or would take more than two thirds of its memory.
   /// @param A compressed, both triangles
-  static std::shared_ptr<const NodeBlocks> of(const SparseMatrix& A);
+  static std::shared_ptr<const NodeBlocks> of(const SparseMatrix& A, TaskPool* pool = nullptr);
 
   Eigen::Index size() const { return 3 * num_nodes(); }
   /// Of both triangles.
@@ -73,9 +74,10 @@ class NodeBlocks {
   }
   /// @return false if they cannot be stored
   bool take_rows(const SparseMatrix& A);
-  void take_entries(const SparseMatrix& A);
+  void take_entries(const SparseMatrix& A, TaskPool* pool);
   void list_left();
-  bool is_mirrored(const SparseMatrix& A) const;
+  /// @param begin,end columns that are compared
+  bool is_mirrored(const SparseMatrix& A, int begin, int end) const;
 
   // Of each column of blocks those from the diagonal down, rows ascending.
   std::vector<int> begin_{0};

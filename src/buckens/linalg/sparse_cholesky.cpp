@@ -6,9 +6,9 @@
 #include <optional>
 #include <utility>
 
+#include "buckens/base/allowed_threads.h"
 #include "buckens/base/timed_phase.h"
 #include "buckens/linalg/factor_cache.h"
-#include "buckens/linalg/factor_threads.h"
 #include "buckens/linalg/factor_work.h"
 #include "buckens/linalg/finite_matrix.h"
 #include "buckens/linalg/panel_factor.h"
@@ -24,19 +24,6 @@ constexpr double kManyProducts = 2e7;
 // Bytes of a factor from which it is kept in a folder: smaller ones are made in less than a tenth
 // of a second.
 constexpr double kWorthKeeping = 8e6;
-
-/// The threads that a factorisation may use.
-class FactorPool {
- public:
-  explicit FactorPool(double products) {
-    const int threads = FactorThreads::allowed();
-    if (threads > 1 && products >= kManyProducts) pool_.emplace(threads);
-  }
-  TaskPool* get() { return pool_ ? &*pool_ : nullptr; }
-
- private:
-  std::optional<TaskPool> pool_;
-};
 
 }  // namespace
 
@@ -95,8 +82,8 @@ struct SparseCholesky::Backend {
       const SupernodeTree tree = order_of(pattern);
       entries = tree.num_entries;
       const base::TimedPhase phase("factor");
-      FactorPool pool(tree.num_products);
-      panels.emplace(A, tree, simd, pool.get(), [&](double needed) {
+      TaskPool* pool = tree.num_products >= kManyProducts ? base::AllowedThreads::pool() : nullptr;
+      panels.emplace(A, tree, simd, pool, [&](double needed) {
         bytes = needed;
         work.begin(bytes);
       });

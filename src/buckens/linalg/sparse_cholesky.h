@@ -30,7 +30,7 @@ struct CholeskyOptions {
 /// solves.
 ///
 /// The factor is made in the layout it is solved from (PanelFactor), in the order of METIS' nested
-/// dissection (small ones: AMD's least degree), by the threads that FactorThreads allows.
+/// dissection (small ones: AMD's least degree), by the threads that base::AllowedThreads allows.
 /// Solving allocates nothing after the first call of a given number of right-hand sides. Solves
 /// from several threads wait for one another.
 class SparseCholesky final : public Factor {

@@ -93,10 +93,15 @@ SparseRows::SparseRows(Eigen::Index rows, Eigen::Index columns, const SharedRowO
                        const DescribeColumns& describe)
     : rows_(rows), elsewhere_(std::make_shared<const Elsewhere>(rows, columns, order, describe)) {}
 
-Vector SparseRows::operator*(const Vector& x) const {
-  if (!elsewhere_) return here_ * x;
+Vector SparseRows::multiplied(const Vector& x, TaskPool* pool) const {
   Vector y(rows_);
-  elsewhere_->multiply(x.data(), y.data());
+  if (elsewhere_) {
+    elsewhere_->multiply(x.data(), y.data());
+    return y;
+  }
+  run_ranges(pool, static_cast<int>(rows_), [&](int begin, int end) {
+    y.segment(begin, end - begin).noalias() = here_.middleRows(begin, end - begin) * x;
+  });
   return y;
 }
 

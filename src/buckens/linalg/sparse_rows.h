@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "buckens/base/task_pool.h"
 #include "buckens/linalg/column_descriptions.h"
 #include "buckens/linalg/matrix_types.h"
 #include "buckens/linalg/nodal_vector.h"
@@ -34,7 +35,9 @@ class SparseRows {
 
   Eigen::Index rows() const { return rows_; }
   /// A x
-  Vector operator*(const Vector& x) const;
+  Vector operator*(const Vector& x) const { return multiplied(x, nullptr); }
+  /// The same by several threads, with the same bits.
+  Vector multiplied(const Vector& x, TaskPool* pool) const;
   /// The largest norm ‖F y‖ of the runs of y = A x that F has columns for, found where rows and
   /// vector are, if other processes have both. @pre where they have an order, one of them has all
   /// rows of a run

@@ -40,11 +40,11 @@ SymmetricMatrix SymmetricMatrix::by_node(std::shared_ptr<const SparseMatrix> nod
   return out;
 }
 
-SymmetricMatrix SymmetricMatrix::in_blocks(SparseMatrix&& A) {
+SymmetricMatrix SymmetricMatrix::in_blocks(SparseMatrix&& A, TaskPool* pool) {
   SymmetricMatrix out(std::move(A));
   out.here_.makeCompressed();
   if (out.cols() < NodeBlocks::kFewestVariables) return out;
-  std::shared_ptr<const NodeBlocks> blocks = NodeBlocks::of(out.here_);
+  std::shared_ptr<const NodeBlocks> blocks = NodeBlocks::of(out.here_, pool);
   if (!blocks) return out;
   out.drop();
   out.blocks_ = std::move(blocks);
@@ -174,20 +174,24 @@ Matrix weighted_product(double weight, const SymmetricMatrix& A, const Matrix& X
   return weight * (A.whole() * X);
 }
 
-void multiply(std::initializer_list<MatrixProduct> products) {
+void multiply(std::initializer_list<MatrixProduct> products, TaskPool* pool) {
   std::vector<DividedMatrix::Product> elsewhere;
   for (const MatrixProduct& product : products) {
     product.y->resize(product.A->rows());
-    if (product.A->is_divided()) {
-      elsewhere.push_back({&product.A->divide(), product.x->data(), product.y->data()});
-    } else if (product.A->blocks() != nullptr) {
+    if (!product.A->is_divided()) continue;
+    elsewhere.push_back({&product.A->divide(), product.x->data(), product.y->data()});
+  }
+  run_tasks(pool, static_cast<int>(products.size()), [&](int k) {
+    const MatrixProduct& product = products.begin()[k];
+    if (product.A->is_divided()) return;
+    if (product.A->blocks() != nullptr) {
       product.A->blocks()->multiply(product.x->data(), product.y->data());
     } else if (product.A->nodes() != nullptr) {
       multiply_by_node(*product.A->nodes(), product.x->data(), product.y->data());
     } else {
       product.y->noalias() = product.A->whole() * *product.x;
     }
-  }
+  });
   DividedMatrix::multiply(elsewhere);
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "buckens/base/task_pool.h"
 #include "buckens/linalg/matrix_types.h"
 #include "buckens/linalg/shared_row_order.h"
 
@@ -41,7 +42,7 @@ class SymmetricMatrix {
   static SymmetricMatrix by_node(std::shared_ptr<const SparseMatrix> nodes);
   /// In blocks of nodes where that is possible and takes less memory (NodeBlocks::of()), from a
   /// size on at which memory matters; else whole. Empties A.
-  static SymmetricMatrix in_blocks(SparseMatrix&& A);
+  static SymmetricMatrix in_blocks(SparseMatrix&& A, TaskPool* pool = nullptr);
   SymmetricMatrix(const SymmetricMatrix&) = default;
   SymmetricMatrix& operator=(const SymmetricMatrix&) = default;
   // Eigen's own moves copy.
@@ -142,6 +143,7 @@ struct MatrixProduct {
 };
 /// Several products, by one order to other processes where matrices are divided. Allocates nothing
 /// in a process by itself once all y have their size.
-void multiply(std::initializer_list<MatrixProduct> products);
+/// @param pool forms several at the same time, or null
+void multiply(std::initializer_list<MatrixProduct> products, TaskPool* pool = nullptr);
 
 }  // namespace buckens::linalg

@@ -23,6 +23,14 @@ using model::FieldQuantity;
 namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+// Values of fewer are formed before a thread wakes.
+constexpr std::size_t kManyPlaces = 1000;
+
+/// Adds room at the end.
+double* room_for(std::size_t count, std::vector<double>& values) {
+  values.resize(values.size() + count);
+  return values.data() + values.size() - count;
+}
 
 Matrix3d tensor(const Eigen::Ref<const Eigen::Matrix<double, 6, 1>>& s, double shear) {
   Matrix3d out;
@@ -43,8 +51,8 @@ void rotate(const Matrix3d& R, double shear, Eigen::Ref<TensorColumns> columns) 
 }  // namespace
 
 BodyFields::BodyFields(const model::Model& model, const model::FieldPlaces& places,
-                       const model::FieldOutputSpec& spec)
-    : model_(model), whole_(places.whole) {
+                       const model::FieldOutputSpec& spec, TaskPool* pool)
+    : model_(model), pool_(pool), whole_(places.whole) {
   const model::WholeBody& whole = model.wholes[static_cast<std::size_t>(whole_)];
   const fem::FeModel& mesh = *mesh_of(model, whole);
   const int num_solids = volume_elements(mesh);
@@ -84,9 +92,11 @@ void BodyFields::evaluate_stresses(const model::State& state) {
     if (!part.strains) continue;
     const auto b = static_cast<std::size_t>(part.body);
     const model::BodyState& s = state.bodies[b];
-    part.evaluate(*model_.bodies[b].flexible, s.d, at_nodes, at_elements);
+    const body::FlexiblePart& flexible = *model_.bodies[b].flexible;
+    TaskPool* pool = flexible.if_worth(pool_);
+    part.evaluate(flexible, s.d, at_nodes, at_elements, pool);
     TensorColumns node_stress, element_stress;
-    part.strains->stresses(at_nodes, at_elements, node_stress, element_stress);
+    part.strains->stresses(at_nodes, at_elements, node_stress, element_stress, pool);
     if (part.shells) add_shells(part, s.d, at_nodes, node_stress);
     if (whole.is_divided()) {
       const Matrix3d R = (to_whole * s.frame.X_WB.q).toRotationMatrix();
@@ -137,7 +147,7 @@ void BodyFields::append_motion(const model::State& state, FieldQuantity quantity
     if (quantity == FieldQuantity::acceleration) {
       u_ddot = part.translations(*body.flexible, s.d_ddot);
     }
-    for (Index p = 0; p < part.num_places(); ++p) {
+    const auto value_at = [&](Index p) {
       const auto node = static_cast<std::size_t>(part.nodes[static_cast<std::size_t>(p)]);
       const Vector3d& at = body.flexible->mesh().nodes[node].position;
       const Vector3d z = at - body.com + u.col(p);
@@ -153,8 +163,13 @@ void BodyFields::append_motion(const model::State& state, FieldQuantity quantity
         value = s.v_dot + R * (s.w_dot.cross(z) + w.cross(w.cross(z)) +
                                2.0 * w.cross(u_dot.col(p)) + u_ddot.col(p));
       }
-      values.insert(values.end(), value.data(), value.data() + 3);
-    }
+      return value;
+    };
+    double* next = room_for(3 * part.nodes.size(), values);
+    run_ranges(body.flexible->if_worth(pool_), static_cast<int>(part.num_places()),
+               [&](Index begin, Index end) {
+                 for (Index p = begin; p < end; ++p) Vector3d::Map(next + 3 * p) = value_at(p);
+               });
   }
 }
 
@@ -168,30 +183,33 @@ void BodyFields::append_tensors(FieldQuantity quantity, const TensorColumns& str
                                 const TensorColumns& stress, const std::vector<bool>& known,
                                 std::vector<double>& values) const {
   const std::size_t components = std::max<std::size_t>(1, note_of(quantity).components.size());
-  for (Index p = 0; p < stress.cols(); ++p) {
+  double* first = room_for(components * known.size(), values);
+  const auto put = [&](Index p, double* to) {
     if (!known[static_cast<std::size_t>(p)]) {
-      values.insert(values.end(), components, kNoValue);
-      continue;
+      std::fill_n(to, components, kNoValue);
+      return;
     }
     switch (quantity) {
       case FieldQuantity::stress:
-        values.insert(values.end(), stress.col(p).data(), stress.col(p).data() + 6);
+        std::copy_n(stress.col(p).data(), 6, to);
         break;
       case FieldQuantity::strain:
-        values.insert(values.end(), strain.col(p).data(), strain.col(p).data() + 6);
+        std::copy_n(strain.col(p).data(), 6, to);
         break;
       case FieldQuantity::von_mises:
-        values.push_back(mises_at(stress, p));
+        *to = mises_at(stress, p);
         break;
-      case FieldQuantity::principal_stress: {
-        const Vector3d principal = fem::principal_stresses(stress.col(p));
-        values.insert(values.end(), principal.data(), principal.data() + 3);
+      case FieldQuantity::principal_stress:
+        Vector3d::Map(to) = fem::principal_stresses(stress.col(p));
         break;
-      }
       default:
-        values.push_back(0.5 * stress.col(p).dot(strain.col(p)));
+        *to = 0.5 * stress.col(p).dot(strain.col(p));
     }
-  }
+  };
+  TaskPool* pool = known.size() >= kManyPlaces ? pool_ : nullptr;
+  run_ranges(pool, static_cast<int>(known.size()), [&](Index begin, Index end) {
+    for (Index p = begin; p < end; ++p) put(p, first + components * static_cast<std::size_t>(p));
+  });
 }
 
 void BodyFields::append(const model::State& state, std::vector<double>& values) const {

@@ -19,9 +19,9 @@ namespace buckens::results {
 /// divided body have separate places: nothing is averaged across a cut.
 class BodyFields {
  public:
-  /// @param model outlives the object
+  /// @param model outlives the object, and so does the pool, which shares the work, or null
   BodyFields(const model::Model& model, const model::FieldPlaces& places,
-             const model::FieldOutputSpec& spec);
+             const model::FieldOutputSpec& spec, TaskPool* pool = nullptr);
 
   /// Whether nothing is recorded: bodies without solids and shells only have motion.
   bool is_empty() const { return at_nodes_.empty() && at_elements_.empty(); }
@@ -62,6 +62,7 @@ class BodyFields {
                       std::vector<double>& values) const;
 
   const model::Model& model_;
+  TaskPool* pool_;
   int whole_;
   std::vector<model::FieldQuantity> at_nodes_, at_elements_;
   bool has_stresses_ = false;

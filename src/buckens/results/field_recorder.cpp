@@ -32,12 +32,12 @@ bool has_mesh(const model::Model& model, const model::FieldPlaces& places) {
 
 }  // namespace
 
-FieldRecorder::FieldRecorder(const model::BuiltModel& built) : built_(built) {
+FieldRecorder::FieldRecorder(const model::BuiltModel& built, TaskPool* pool) : built_(built) {
   const auto& spec = built.description.output.field_output;
   if (!spec) return;
   for (const model::FieldPlaces& places : built.fields) {
     if (!has_mesh(built.model, places)) continue;
-    BodyFields body(built.model, places, *spec);
+    BodyFields body(built.model, places, *spec, pool);
     if (body.is_empty()) continue;
     body.add_channels(layout_);
     bodies_.push_back(std::move(body));

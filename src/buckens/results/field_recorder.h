@@ -27,7 +27,8 @@ class FieldRecorder {
   /// @param built outlives the object
   /// @throws InputError if nothing of what is requested exists: stresses need solids or shells,
   /// loads a place where something acts
-  explicit FieldRecorder(const model::BuiltModel& built);
+  /// @param pool shares the work, or null; outlives the object. No bit depends on it
+  explicit FieldRecorder(const model::BuiltModel& built, TaskPool* pool = nullptr);
 
   /// Nothing is requested.
   bool is_empty() const { return bodies_.empty() && shells_.empty() && loads_.empty(); }

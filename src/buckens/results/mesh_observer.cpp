@@ -3,7 +3,7 @@
 
 namespace buckens::results {
 
-MeshObserver::MeshObserver(const model::Model& model) : model_(model) {
+MeshObserver::MeshObserver(const model::Model& model, TaskPool* pool) : model_(model), pool_(pool) {
   for (const body::Body& body : model.bodies) {
     lines_.push_back(body.is_flexible() ? std::make_unique<fem::Recovery>(body.flexible->mesh())
                                         : nullptr);
@@ -32,7 +32,9 @@ void MeshObserver::add_all_of(std::size_t body, Observation& now) const {
   now.nodal[body] = model_.bodies[body].flexible->nodal(now.state.bodies[body].d);
   now.section_forces[body] = lines_[body]->section_forces(now.nodal[body]);
   now.stresses[body] = lines_[body]->stresses(now.section_forces[body]);
-  if (solids_[body]) now.solid_stresses[body] = solids_[body]->stresses(now.nodal[body]);
+  if (!solids_[body]) return;
+  TaskPool* pool = model_.bodies[body].flexible->if_worth(pool_);
+  now.solid_stresses[body] = solids_[body]->stresses(now.nodal[body], pool);
 }
 
 void MeshObserver::add(const ObservedParts& parts, Observation& now) {

@@ -17,7 +17,8 @@ namespace buckens::results {
 /// Adds to observations what is read of meshes: nodal variables, section forces and stresses.
 class MeshObserver {
  public:
-  explicit MeshObserver(const model::Model& model);
+  /// @param pool shares the work, or null; outlives this object
+  explicit MeshObserver(const model::Model& model, TaskPool* pool = nullptr);
 
   /// Everything, of all bodies. Cost: a product with the recovery rows per flexible body.
   void add_all(Observation& now) const;
@@ -40,6 +41,7 @@ class MeshObserver {
   const Some& some_of(std::size_t body, const ObservedElements& elements);
 
   const model::Model& model_;
+  TaskPool* pool_;
   std::vector<std::unique_ptr<fem::Recovery>> lines_;        // null of rigid bodies
   std::vector<std::unique_ptr<fem::SolidRecovery>> solids_;  // null where there are none
   std::map<std::size_t, Some> some_;                         // as they were last asked for

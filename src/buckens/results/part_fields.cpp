@@ -88,9 +88,10 @@ void PartFields::compose(const body::FlexiblePart& flexible, bool has_motion) {
 }
 
 void PartFields::evaluate(const body::FlexiblePart& flexible, const linalg::Vector& d,
-                          TensorColumns& at_nodes, TensorColumns& at_elements) const {
+                          TensorColumns& at_nodes, TensorColumns& at_elements,
+                          TaskPool* pool) const {
   if (node_basis.cols() == 0) {
-    strains->evaluate(flexible.nodal(d), at_nodes, at_elements);
+    strains->evaluate(flexible.nodal(d), at_nodes, at_elements, pool);
     return;
   }
   at_nodes.resize(6, strains->num_places());

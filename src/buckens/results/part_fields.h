@@ -34,7 +34,8 @@ struct PartFields {
   /// Strains in the part's own axes.
   /// @param d variables of the body
   void evaluate(const body::FlexiblePart& flexible, const linalg::Vector& d,
-                fem::TensorColumns& at_nodes, fem::TensorColumns& at_elements) const;
+                fem::TensorColumns& at_nodes, fem::TensorColumns& at_elements,
+                TaskPool* pool = nullptr) const;
   /// Stresses on the surfaces of shells, at the places that shell_columns lists.
   fem::ShellNodeStresses::Surface evaluate_shells(const body::FlexiblePart& flexible,
                                                   const linalg::Vector& d) const;

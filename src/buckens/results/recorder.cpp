@@ -36,11 +36,12 @@ bool are_in_tables(const model::Model& model) {
 }  // namespace
 
 Recorder::Recorder(const model::BuiltModel& built, const dynamics::MassMetric& metric,
-                   bool has_redundant_joints)
+                   bool has_redundant_joints, TaskPool* pool)
     : built_(built),
       metric_(metric),
       has_redundant_joints_(has_redundant_joints),
-      meshes_(built.model) {
+      pool_(pool),
+      meshes_(built.model, pool) {
   for (std::size_t k = 0; k < built.description.output.sensors.size(); ++k) {
     sensors_.push_back(make_sensor(built, k));
   }
@@ -214,7 +215,7 @@ Observation Recorder::observe(const model::State& state, const WorkBalance& work
 }
 
 void Recorder::add_energies(const std::optional<dynamics::Energy>& energy, Observation& now) {
-  now.energy = energy ? *energy : dynamics::energy(now.model, now.state);
+  now.energy = energy ? *energy : dynamics::energy(now.model, now.state, pool_);
   if (!started_) first_energy_ = now.energy.total();
   now.work.balance = now.energy.total() - first_energy_ - now.work.external + now.work.dissipated;
 }

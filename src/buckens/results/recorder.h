@@ -19,8 +19,9 @@ class Recorder {
  public:
   /// @param metric and has_redundant_joints: joint forces of redundant joints are distributed with
   /// the least norm
+  /// @param pool shares the work, or null; outlives this object. No bit depends on it
   Recorder(const model::BuiltModel& built, const dynamics::MassMetric& metric,
-           bool has_redundant_joints);
+           bool has_redundant_joints, TaskPool* pool = nullptr);
   ~Recorder();
 
   const RecordLayout& layout() const { return layout_; }
@@ -74,6 +75,7 @@ class Recorder {
   const model::BuiltModel& built_;
   const dynamics::MassMetric& metric_;
   bool has_redundant_joints_;
+  TaskPool* pool_;
   RecordLayout layout_;
   MeshObserver meshes_;
   std::vector<std::size_t> recorded_loads_;  // first of each name, indices into Model::loads

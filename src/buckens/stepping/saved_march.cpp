@@ -79,7 +79,7 @@ void Stepper::visit_saved(const base::SaveVisit& visit) {
   newton_->visit_saved(visit);
   // What the last step has taught is kept now rather than at the start of the next one.
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    if (has_lesson_) groups_[g].learn(pool_.get());
+    if (has_lesson_) groups_[g].learn(pool_);
     groups_[g].visit_saved(visit.inside("kept_solves").inside(g));
   }
   has_lesson_ = false;

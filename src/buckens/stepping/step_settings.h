@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "buckens/base/task_pool.h"
 #include "buckens/linalg/ranks.h"
 #include "buckens/linalg/shared_store.h"
 #include "buckens/linalg/simd_level.h"
@@ -30,6 +31,8 @@ struct StepSettings {
   int max_newton = 40;
   int max_outer = 30;
   int threads = 1;  ///< ≥ 1; does not influence results
+  /// These threads, which outlive the stepper; null: it starts its own.
+  TaskPool* pool = nullptr;
   /// Small bodies of large mechanisms step eight at a time; otherwise one by one, which is slower.
   bool side_by_side = true;
   /// Instruction set for these; the processor must have it.

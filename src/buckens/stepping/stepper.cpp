@@ -126,7 +126,13 @@ void Stepper::decide_first(bool decides) {
 
 void Stepper::use_threads(int threads) {
   settings_.threads = threads;
-  pool_ = threads > 1 ? std::make_unique<TaskPool>(threads) : nullptr;
+  if (settings_.pool != nullptr && settings_.pool->threads() == threads) {
+    own_pool_ = nullptr;
+    pool_ = settings_.pool;
+    return;
+  }
+  own_pool_ = threads > 1 ? std::make_unique<TaskPool>(threads) : nullptr;
+  pool_ = own_pool_.get();
 }
 
 Stepper::~Stepper() = default;
@@ -157,7 +163,7 @@ void Stepper::for_bodies(F&& f) {
   const bool is_shared = pool_ && num_dofs_ >= kSharedDofs && settings_.exchange == nullptr;
   const std::size_t parts =
       is_shared ? std::min(count, static_cast<std::size_t>(kPartsPerThread * pool_->threads())) : 1;
-  run_tasks(pool_.get(), static_cast<int>(parts), [&](int part) {
+  run_tasks(pool_, static_cast<int>(parts), [&](int part) {
     const auto k = static_cast<std::size_t>(part);
     for (std::size_t b = count * k / parts; b < count * (k + 1) / parts; ++b) f(b);
   });
@@ -166,9 +172,9 @@ void Stepper::for_bodies(F&& f) {
 void Stepper::start_bodies(const model::State& state) {
   for_bodies([&](std::size_t b) {
     const model::BodyState& s = state.bodies[b];
-    if (flexible_[b]) flexible_[b]->coupling.start(s, state.history, state.t, pool_.get());
+    if (flexible_[b]) flexible_[b]->coupling.start(s, state.history, state.t, pool_);
     // Last: the right-hand side reads the same vectors of the mesh next.
-    bodies_[b].start(s, operators_[b].get(), scheme_, pool_.get());
+    bodies_[b].start(s, operators_[b].get(), scheme_, pool_);
     if (flexible_[b]) bodies_[b].quadratic = flexible_[b]->coupling.used().moments;
   });
 }
@@ -190,10 +196,10 @@ Stepper::Answers Stepper::free_responses(const model::State& state, int round) {
     if (!is_active(b)) return;
     FlexibleStep& body = *flexible_[b];
     if (first_round) {
-      body.large.form_right_side(state.bodies[b], body.coupling.used().load, pool_.get());
+      body.large.form_right_side(state.bodies[b], body.coupling.used().load, pool_);
     } else {
       body.large.form_right_side_of_change(body.coupling.load_before(), body.coupling.used().load,
-                                           pool_.get());
+                                           pool_);
     }
     BodyStepOperator& op = *operators_[b];
     if (op.shared_factor() != nullptr) return;
@@ -202,15 +208,14 @@ Stepper::Answers Stepper::free_responses(const model::State& state, int round) {
   });
   // One factor is shared between threads by its subtrees, several one by one; those that wait for
   // other simulations must not wait inside of tasks.
-  TaskPool* across = settings_.exchange == nullptr ? pool_.get() : nullptr;
+  TaskPool* across = settings_.exchange == nullptr ? pool_ : nullptr;
   run_tasks(across, static_cast<int>(groups_.size()), [&](int g) {
     FactorGroup& group = groups_[static_cast<std::size_t>(g)];
-    first_round ? group.solve_loads(state, pool_.get())
-                : group.answer_changes(state, round == 1, pool_.get());
+    first_round ? group.solve_loads(state, pool_) : group.answer_changes(state, round == 1, pool_);
   });
   for_bodies([&](std::size_t b) {
     if (!is_active(b)) return;
-    flexible_[b]->large.take_solution(state.bodies[b], bodies_[b].y_free, pool_.get());
+    flexible_[b]->large.take_solution(state.bodies[b], bodies_[b].y_free, pool_);
   });
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (is_active(b)) solves += flexible_[b]->solves;
@@ -231,7 +236,7 @@ void Stepper::recall_solves(const model::State& before) {
     if (!goes_on) {
       group.forget();
     } else if (has_lesson_) {
-      group.learn(pool_.get());
+      group.learn(pool_);
     }
   }
   has_lesson_ = false;
@@ -248,7 +253,7 @@ void Stepper::complete(const model::State& state) {
   for_bodies([&](std::size_t b) {
     if (!flexible_[b]) return;
     flexible_[b]->large.complete(state.bodies[b], bodies_[b].load, bodies_[b].correction_load,
-                                 next_.bodies[b], pool_.get());
+                                 next_.bodies[b], pool_);
   });
 }
 
@@ -258,7 +263,7 @@ CouplingRounds::Gap Stepper::compare_coupling(const model::State& state) {
     gaps_[b] = {};
     if (!matters) return;
     gaps_[b] = flexible_[b]->coupling.evaluate(bodies_[b], flexible_[b]->large, next_.bodies[b],
-                                               state.t, settings_, model_.length, pool_.get());
+                                               state.t, settings_, model_.length, pool_);
   });
   CouplingRounds::Gap out;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -470,7 +475,7 @@ double Stepper::neglected(std::size_t body, const model::State& state,
 
 double Stepper::lowest_frequency(std::size_t body) {
   const base::TimedPhase phase("lowest_frequency");
-  return stepping::lowest_frequency(*model_.bodies[body].flexible, *operators_[body], pool_.get());
+  return stepping::lowest_frequency(*model_.bodies[body].flexible, *operators_[body], pool_);
 }
 
 SolveCounts Stepper::counts(std::size_t body) const {

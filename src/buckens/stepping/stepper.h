@@ -171,7 +171,8 @@ class Stepper {
   std::vector<std::unique_ptr<FlexibleStep>> flexible_;  // null: rigid
   std::vector<FactorGroup> groups_;
   std::vector<LaggedCoupling::Gap> gaps_;  // per body
-  std::unique_ptr<TaskPool> pool_;         // empty with one thread
+  std::unique_ptr<TaskPool> own_pool_;
+  TaskPool* pool_ = nullptr;  // null with one thread
   model::State next_;
   linalg::Vector lambda_;  // of the current step
   double stepped_to_ = 0;  // end of the last step [s]

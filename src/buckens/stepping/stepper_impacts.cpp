@@ -83,9 +83,9 @@ void Stepper::filter_algorithmic(model::State& state) {
     model::BodyState& s = state.bodies[b];
     BodyStepOperator& op = *operators_[b];
     Vector& d_alg = s.d_alg.overwrite(s.d_ddot.size());
-    op.inertial().multiply_mass(s.d_ddot, d_alg, pool_.get());
+    op.inertial().multiply_mass(s.d_ddot, d_alg, pool_);
     d_alg *= scheme_.mass;
-    op.solve_right_side(d_alg, pool_.get());
+    op.solve_right_side(d_alg, pool_);
     op.sieve().apply(d_alg);
   }
 }
@@ -103,12 +103,12 @@ bool Stepper::take_mean_of_turning(const model::State& before, model::State& aft
     for (int k = 0; k < 2; ++k) {
       const Vector load = scheme_.damping * turning;
       if (inertial.is_proportional()) {
-        inertial.multiply_mass(load, turning, pool_.get());
+        inertial.multiply_mass(load, turning, pool_);
         turning *= inertial.zeta();
       } else {
-        inertial.multiply(Vector::Zero(load.size()), load, turning, pool_.get());
+        inertial.multiply(Vector::Zero(load.size()), load, turning, pool_);
       }
-      op.solve_right_side(turning, pool_.get());
+      op.solve_right_side(turning, pool_);
       turning += inertial.share() * load;
       op.sieve().apply(turning);
     }

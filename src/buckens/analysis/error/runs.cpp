@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "buckens/analysis/error/estimate.h"
+#include "buckens/base/allowed_threads.h"
 
 namespace buckens::analysis {
 
@@ -30,7 +31,10 @@ const char* remedy_for(const std::string& source) {
 std::unique_ptr<SensorCurves> run_variant(const ErrorVariant& variant,
                                           const ErrorRunOptions& options) {
   auto out = std::make_unique<SensorCurves>();
-  const auto built = model::build_model(variant.description);
+  const auto built = [&] {
+    const base::AllowedThreads threads(options.threads);
+    return model::build_model(variant.description);
+  }();
   SimulationOptions simulation;
   simulation.tells_warnings = false;  // those of the run itself have been told
   simulation.threads = options.threads;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <numbers>
 #include <numeric>
 
@@ -189,17 +190,26 @@ void DeformationLimits::find_members() {
   }
 }
 
-DeformationMeasure DeformationLimits::measure(const Vector& d) const {
-  DeformationMeasure out;
-  out.rotation = nodal_rotation(fe_, d);
+double DeformationLimits::largest_rotation(const Vector& d, TaskPool* pool) const {
+  double largest = nodal_rotation(fe_, d);
+  std::mutex turn;
   for (const auto& block : fe_.blocks) {
     if (!block->is_line() && !block->is_solid() && !block->is_shell()) continue;
-    for (int e = 0; e < block->num_elements(); ++e) {
-      out.rotation = std::max(out.rotation, rotation_of(fe_, *block, e, d));
-    }
+    run_ranges(pool, block->num_elements(), [&](int begin, int end) {
+      double own = 0;
+      for (int e = begin; e < end; ++e) own = std::max(own, rotation_of(fe_, *block, e, d));
+      const std::lock_guard lock(turn);
+      largest = std::max(largest, own);
+    });
   }
+  return largest;
+}
+
+DeformationMeasure DeformationLimits::measure(const Vector& d, TaskPool* pool) const {
+  DeformationMeasure out;
+  out.rotation = largest_rotation(d, pool);
   const linalg::Matrix forces = recovery_.section_forces(d);
-  out.strain = strain_.measure(d, forces, recovery_);
+  out.strain = strain_.measure(d, forces, recovery_, pool);
   for (std::size_t e = 0; e < buckling_load_.size(); ++e) {
     if (buckling_load_[e] <= 0.0) continue;
     const double load = forces(0, static_cast<Eigen::Index>(e)) / buckling_load_[e];

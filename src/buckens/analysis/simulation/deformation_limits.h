@@ -32,10 +32,12 @@ class DeformationLimits {
   explicit DeformationLimits(const body::Body& body);
 
   /// Cost: one pass over the elements, one sparse product for section forces.
-  DeformationMeasure measure(const linalg::Vector& d) const;
+  /// @param pool null: the calling thread alone. No bit depends on it
+  DeformationMeasure measure(const linalg::Vector& d, TaskPool* pool = nullptr) const;
 
  private:
   void find_members();
+  double largest_rotation(const linalg::Vector& d, TaskPool* pool) const;
 
   const fem::FeModel& fe_;
   fem::Recovery recovery_;

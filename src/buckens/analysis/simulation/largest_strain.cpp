@@ -75,7 +75,7 @@ LargestStrain::LargestStrain(const fem::FeModel& fe) {
 }
 
 double LargestStrain::measure(const Vector& d, const linalg::Matrix& section_forces,
-                              const fem::Recovery& recovery) const {
+                              const fem::Recovery& recovery, TaskPool* pool) const {
   double largest = 0;
   if (!modulus_.empty()) {
     const linalg::Matrix stresses = recovery.stresses(section_forces);
@@ -85,7 +85,7 @@ double LargestStrain::measure(const Vector& d, const linalg::Matrix& section_for
   }
   if (solids_) {
     TensorColumns at_nodes, at_elements;
-    solids_->evaluate(d, at_nodes, at_elements);
+    solids_->evaluate(d, at_nodes, at_elements, pool);
     include_principal(at_nodes, largest);
   }
   if (shells_) {

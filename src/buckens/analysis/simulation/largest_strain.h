@@ -24,7 +24,7 @@ class LargestStrain {
   /// @param section_forces of all line elements, from fem::Recovery
   /// Cost: one pass over the elements at the surface, one sparse product for shells.
   double measure(const linalg::Vector& d, const linalg::Matrix& section_forces,
-                 const fem::Recovery& recovery) const;
+                 const fem::Recovery& recovery, TaskPool* pool = nullptr) const;
 
  private:
   std::vector<double> modulus_;  // E per line element [Pa]

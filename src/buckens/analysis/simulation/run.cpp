@@ -10,6 +10,7 @@
 #include "buckens/analysis/initial/after_impact.h"
 #include "buckens/analysis/initial/position_assembly.h"
 #include "buckens/analysis/simulation/seconds_since.h"
+#include "buckens/base/allowed_threads.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/free_memory.h"
 #include "buckens/base/log.h"
@@ -17,7 +18,6 @@
 #include "buckens/base/version.h"
 #include "buckens/dynamics/contact_groups.h"
 #include "buckens/dynamics/pair_memory.h"
-#include "buckens/linalg/factor_threads.h"
 
 namespace buckens::analysis {
 
@@ -194,7 +194,7 @@ void SimulationRun::take_steps() {
 
 /// @throws NumericalError; `after` is then as `before`
 stepping::StepReport SimulationRun::take_step(const model::State& before, model::State& after) {
-  const linalg::FactorThreads threads(options_.threads);  // another step size needs another factor
+  const base::AllowedThreads threads(pool_.get());  // another step size needs another factor
   const double reach = std::min(before.t + march_->longest_step(), spec_.duration);
   try {
     bool is_too_long_once = false;

@@ -27,6 +27,7 @@
 #include "buckens/analysis/simulation/step_advice.h"
 #include "buckens/analysis/simulation/step_traffic.h"
 #include "buckens/analysis/simulation/work_account.h"
+#include "buckens/base/task_pool.h"
 #include "buckens/model/build/paired_model.h"
 #include "buckens/results/recorder.h"
 #include "buckens/stepping/time_march.h"
@@ -108,6 +109,7 @@ class SimulationRun {
   model::PairedModel own_;
   const model::BuiltModel& built_;
   SimulationOptions options_;
+  std::unique_ptr<TaskPool> pool_;  // null with one thread
   const model::SimulationSpec& spec_;
   Clock::time_point created_ = Clock::now();
   double setup_seconds_ = 0, stepping_seconds_ = 0;

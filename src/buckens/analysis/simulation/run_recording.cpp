@@ -22,7 +22,7 @@ RunRecording::RunRecording(const Followed& run, const OutputPlan& plan, results:
       plan_(plan),
       sink_(sink),
       recorder_(run.recorder),
-      fields_(run.built) {}
+      fields_(run.built, run.pool) {}
 
 std::string RunRecording::size_advice() const {
   return judge_size(plan_.bytes(recorder_.layout(), fields_.layout()));

@@ -24,6 +24,7 @@ class RunRecording {
     const WorkAccount& work;
     RunStatistics& statistics;
     results::Recorder& recorder;
+    TaskPool* pool = nullptr;  ///< shares the work of fields, or null
   };
   /// @throws InputError, ModelError if something to be recorded is meaningless
   RunRecording(const Followed& run, const OutputPlan& plan, results::RecordSink& sink);

@@ -10,12 +10,12 @@
 #include "buckens/analysis/simulation/seconds_since.h"
 #include "buckens/analysis/simulation/settings.h"
 #include "buckens/analysis/simulation/step_advice.h"
+#include "buckens/base/allowed_threads.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/free_memory.h"
 #include "buckens/base/log.h"
 #include "buckens/base/timed_phase.h"
 #include "buckens/base/version.h"
-#include "buckens/linalg/factor_threads.h"
 #include "buckens/model/contact_group.h"
 
 namespace buckens::analysis {
@@ -126,6 +126,7 @@ void SimulationRun::begin_march(double start) {
   if (powers_->any()) march.most_halvings = stepping::TimeMarch::kShortestRung;
   stepping::StepSettings settings = step_settings(spec_);
   settings.threads = options_.threads;
+  settings.pool = pool_.get();
   settings.exchange = options_.exchange;
   settings.released = prepared_->released;
   metric_->let_go();
@@ -136,7 +137,8 @@ void SimulationRun::begin_march(double start) {
 }
 
 void SimulationRun::set_up() {
-  const linalg::FactorThreads threads(options_.threads);
+  if (options_.threads > 1) pool_ = std::make_unique<TaskPool>(options_.threads);
+  const base::AllowedThreads threads(pool_.get());
   check_method();
   plan_ = plan_output(built_.description);
   summary_.title = built_.model.title;
@@ -148,7 +150,7 @@ void SimulationRun::set_up() {
   }
   powers_.emplace(built_.model, method_of(spec_.method) != stepping::Method::newmark);
   begin_march(0.0);
-  observer_.emplace(built_, *metric_, !prepared_->redundant_rows.empty());
+  observer_.emplace(built_, *metric_, !prepared_->redundant_rows.empty(), pool_.get());
   work_.emplace(built_.model, prepared_->state, march_->stepper().scheme().weight == 1.0);
   readings_.emplace(built_, *observer_);
   readings_->start(*observer_, work_->work(), prepared_->state);
@@ -160,7 +162,7 @@ void SimulationRun::set_up() {
   reading_growth_.emplace(built_.model);
   events_.emplace(built_);
   actions_.emplace(built_, *metric_);
-  statistics_.emplace(built_);
+  statistics_.emplace(built_, pool_.get());
   watch_.emplace(built_.model, *metric_, prepared_->rows_in_use);
   summary_.redundant_constraints = prepared_->redundant_text;
   note_solvers();
@@ -226,7 +228,8 @@ void SimulationRun::record_into(results::RecordSink& sink) {
   const auto start = Clock::now();
   base::take_phases();  // of a change of state in between, which is no set-up
   std::optional<base::TimedPhase> phase(std::in_place, "records");
-  recording_.emplace(RunRecording::Followed{built_, *work_, *statistics_, *observer_}, plan_, sink);
+  recording_.emplace(RunRecording::Followed{built_, *work_, *statistics_, *observer_, pool_.get()},
+                     plan_, sink);
   if (restored_) {
     const base::SaveVisit visit = base::SaveVisit::restoring(*restored_).inside("recording");
     if (restored_->counts.contains("recording/records")) {

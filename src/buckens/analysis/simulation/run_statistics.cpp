@@ -34,8 +34,9 @@ std::string describe_jammed(long jammed, long impacts) {
 }
 }  // namespace
 
-RunStatistics::RunStatistics(const model::BuiltModel& built)
+RunStatistics::RunStatistics(const model::BuiltModel& built, TaskPool* pool)
     : built_(built),
+      pool_(pool),
       joints_(built.model),
       energy_(built.model),
       touches_(built.model),
@@ -79,7 +80,8 @@ void RunStatistics::add_record(const model::State& state, double balance, double
     const double size =
         std::max(rigid.head<3>().norm() / body.length_scale(), rigid.tail<3>().norm());
     residuals_.sieve = std::max(residuals_.sieve, size);
-    deformation_[b].include(limits_[b]->measure(body.flexible->nodal(d)));
+    deformation_[b].include(
+        limits_[b]->measure(body.flexible->nodal(d), body.flexible->if_worth(pool_)));
   }
 }
 

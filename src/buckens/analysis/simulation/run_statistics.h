@@ -19,7 +19,8 @@ namespace buckens::analysis {
 /// Collects what the summary of a run reports.
 class RunStatistics {
  public:
-  explicit RunStatistics(const model::BuiltModel& built);
+  /// @param pool shares the work of records, or null; outlives this object
+  explicit RunStatistics(const model::BuiltModel& built, TaskPool* pool = nullptr);
 
   /// Lowest elastic ω of a body [rad/s]; without it the body's spin is not judged.
   void set_lowest_frequency(std::size_t body, double omega) { lowest_frequency_[body] = omega; }
@@ -52,6 +53,7 @@ class RunStatistics {
                  results::RunSummary& summary) const;
 
   const model::BuiltModel& built_;
+  TaskPool* pool_;
   long steps_ = 0;
   long iterations_ = 0;
   long most_iterations_ = 0;

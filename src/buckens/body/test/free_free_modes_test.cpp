@@ -9,10 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include "buckens/base/allowed_threads.h"
 #include "buckens/base/errors.h"
 #include "buckens/body/shift_estimate.h"
 #include "buckens/fem/assembly/assemble.h"
-#include "buckens/linalg/factor_threads.h"
 
 namespace buckens::body {
 namespace {
@@ -78,7 +78,7 @@ TEST(FreeFreeModes, AreTheSameWithAnyNumberOfThreads) {
   const FlexiblePart part = part_of(lattice(4, 7));
   ASSERT_GT(part.num_dofs(), 10000);
   const FreeFreeModes alone = free_free_modes(part, {.count = 4});
-  const linalg::FactorThreads threads(3);
+  const base::AllowedThreads threads(3);
   const FreeFreeModes shared = free_free_modes(part, {.count = 4});
   EXPECT_EQ(alone.omega, shared.omega);
   EXPECT_EQ(alone.shapes, shared.shapes);

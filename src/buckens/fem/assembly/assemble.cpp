@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "buckens/base/allowed_threads.h"
 #include "buckens/base/errors.h"
 #include "buckens/fem/assembly/inertia_assembly.h"
 #include "buckens/fem/assembly/made_columns.h"
@@ -26,6 +27,9 @@ using linalg::SparseMatrix;
 namespace {
 
 using Blocks = std::vector<std::shared_ptr<const ElementBlock>>;
+
+// Elements of smaller meshes are summed within some 20 ms.
+constexpr int kManyVariables = 3000;
 
 /// Calls visit(nodes) for the nodes of each link, a reference node first.
 template <class Visitor>
@@ -176,7 +180,11 @@ SparseMatrix integrate_inertia(Blocks blocks, const MeshView& mesh, FeModel& fe)
   MassMoment moment;
   // In this process: the frame is in the mass centre, and a run may go on in another number of
   // processes. There, a frame beside its place by rounding would open joints.
-  for (const auto& block : blocks) block->add_mass(mesh.nodes, moment);
+  for (const auto& block : blocks) {
+    const MassMoment more = mass_moment(*block, mesh);
+    moment.mass += more.mass;
+    moment.first += more.first;
+  }
   if (!(moment.mass > 0.0)) {
     throw ModelError("the mesh has no mass; give a material a density or add a point mass");
   }
@@ -245,7 +253,8 @@ FeModel assemble(const Structure& structure, std::optional<spatial::Plane> plana
   shells->choose_directors(structure.nodes);
   fe.nodes = structure.nodes;
   fe.dofs = number_dofs(structure, fe.blocks, planar);
-  const MeshView mesh{fe.nodes, fe.dofs};
+  const bool is_large = fe.dofs.num_dofs >= kManyVariables;
+  const MeshView mesh{fe.nodes, fe.dofs, is_large ? base::AllowedThreads::pool() : nullptr};
   for (const auto& block : fe.blocks) block->check(mesh);
   if (linalg::is_shared_work(fe.dofs.num_dofs)) fe.parts = divided_nodes(fe.blocks, mesh);
 
@@ -257,8 +266,8 @@ FeModel assemble(const Structure& structure, std::optional<spatial::Plane> plana
   }
   fe.M = mass_matrix(fe.shape, flywheel, fe.dofs.num_dofs);
   StiffnessMatrices stiffness = assemble_stiffness(fe.blocks, mesh);
-  fe.K = linalg::SymmetricMatrix::in_blocks(std::move(stiffness.K));
-  fe.K_damping = linalg::SymmetricMatrix::in_blocks(std::move(stiffness.K_damping));
+  fe.K = linalg::SymmetricMatrix::in_blocks(std::move(stiffness.K), mesh.pool);
+  fe.K_damping = linalg::SymmetricMatrix::in_blocks(std::move(stiffness.K_damping), mesh.pool);
   return fe;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/fem/assembly/element_pieces.h"
 
-#include <algorithm>
 #include <numeric>
 
 #include "buckens/fem/shell/block.h"
@@ -10,15 +9,22 @@
 namespace buckens::fem {
 
 namespace {
-// The stiffness of so many hex8 is a list of 9 MB.
-constexpr int kElementsOfPiece = 1024;
+
+// The stiffness of so many hex8 is a list of 1.2 MB.
+constexpr int kElementsOfPiece = 128;
+
+std::vector<int> ascending(std::size_t count, int first) {
+  std::vector<int> out(count);
+  std::iota(out.begin(), out.end(), first);
+  return out;
+}
+
 }  // namespace
 
 std::shared_ptr<const ElementBlock> some_elements(const ElementBlock& block,
                                                   const std::vector<Node>& nodes,
                                                   const std::vector<int>& elements) {
-  std::vector<int> same_nodes(nodes.size());
-  std::iota(same_nodes.begin(), same_nodes.end(), 0);
+  const std::vector<int> same_nodes = ascending(nodes.size(), 0);
   if (const auto* solids = dynamic_cast<const SolidBlock*>(&block)) {
     return std::make_shared<const SolidBlock>(solids->subset(elements, same_nodes));
   }
@@ -26,25 +32,30 @@ std::shared_ptr<const ElementBlock> some_elements(const ElementBlock& block,
   return std::make_shared<const ShellBlock>(shells.subset(elements, same_nodes));
 }
 
-void visit_pieces(const ElementBlock& block, const std::vector<Node>& nodes,
-                  const std::function<void(const ElementBlock& piece, int first)>& visit) {
-  const auto* solids = dynamic_cast<const SolidBlock*>(&block);
-  const auto* shells = dynamic_cast<const ShellBlock*>(&block);
-  const int count = block.num_elements();
-  if (count <= kElementsOfPiece || (solids == nullptr && shells == nullptr)) {
-    visit(block, 0);
-    return;
-  }
-  std::vector<int> same_nodes(nodes.size());
-  std::iota(same_nodes.begin(), same_nodes.end(), 0);
-  for (int first = 0; first < count; first += kElementsOfPiece) {
-    std::vector<int> some(static_cast<std::size_t>(std::min(kElementsOfPiece, count - first)));
-    std::iota(some.begin(), some.end(), first);
-    if (solids != nullptr) {
-      visit(solids->subset(some, same_nodes), first);
-    } else {
-      visit(shells->subset(some, same_nodes), first);
-    }
+ElementPieces::ElementPieces(const ElementBlock& block, const std::vector<Node>& nodes)
+    : block_(&block),
+      solids_(dynamic_cast<const SolidBlock*>(&block)),
+      shells_(dynamic_cast<const ShellBlock*>(&block)) {
+  if (solids_ == nullptr && shells_ == nullptr) return;
+  if (block.num_elements() <= kElementsOfPiece) return;
+  count_ = (block.num_elements() + kElementsOfPiece - 1) / kElementsOfPiece;
+  same_nodes_ = ascending(nodes.size(), 0);
+}
+
+int ElementPieces::begin(int piece) const {
+  return piece == count_ ? block_->num_elements() : piece * kElementsOfPiece;
+}
+
+void ElementPieces::visit(
+    int piece, const std::function<void(const ElementBlock& piece, int first)>& visit) const {
+  if (count_ == 1) return visit(*block_, 0);
+  const int first = begin(piece);
+  const auto size = static_cast<std::size_t>(begin(piece + 1) - first);
+  const std::vector<int> elements = ascending(size, first);
+  if (solids_ != nullptr) {
+    visit(solids_->subset(elements, same_nodes_), first);
+  } else {
+    visit(shells_->subset(elements, same_nodes_), first);
   }
 }
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/fem/assembly/inertia_assembly.h"
 
+#include <algorithm>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "buckens/fem/assembly/element_pieces.h"
+#include "buckens/fem/assembly/entry_sums.h"
 #include "buckens/fem/assembly/solid_inertia.h"
-#include "buckens/fem/assembly/stiffness_assembly.h"
 #include "buckens/linalg/counted_entries.h"
 
 namespace buckens::fem {
@@ -13,21 +16,87 @@ namespace buckens::fem {
 using linalg::SparseMatrix;
 using linalg::Triplet;
 
+namespace {
+
+/// Moves what elements have listed behind what others have.
+void append(std::vector<Triplet>& listed, std::vector<Triplet>& to) {
+  if (to.empty()) {
+    to.swap(listed);
+  } else {
+    to.insert(to.end(), listed.begin(), listed.end());
+  }
+  listed.clear();
+}
+
+/// Adds what elements `begin` to `end` have, except for their scalar mass, and leaves `own` without
+/// it.
+void add(const ElementBlock& block, int begin, int end, const DofMap& dofs, InertiaSum& own,
+         InertiaSum& sum) {
+  for (std::size_t k = 0; k < sum.W.size(); ++k) append(own.W[k], sum.W[k]);
+  append(own.M_flywheel, sum.M_flywheel);
+  sum.C0 += std::exchange(own.C0, Eigen::Matrix3d::Zero());
+  sum.J0_flywheel += std::exchange(own.J0_flywheel, Eigen::Matrix3d::Zero());
+  for (int e = begin; e < end; ++e) {
+    for (const int node : block.nodes(e)) {
+      for (const int dof : dofs.node_dofs[static_cast<std::size_t>(node)]) {
+        if (dof < 0) continue;
+        sum.c.row(dof) += own.c.row(dof);
+        own.c.row(dof).setZero();
+      }
+    }
+  }
+}
+
+}  // namespace
+
+MassMoment mass_moment(const ElementBlock& block, const MeshView& mesh) {
+  const ElementPieces pieces(block, mesh.nodes);
+  std::vector<MassMoment> of_pieces(static_cast<std::size_t>(pieces.count()));
+  run_tasks(mesh.pool, pieces.count(), [&](int k) {
+    pieces.visit(k, [&](const ElementBlock& piece, int) {
+      piece.add_mass(mesh.nodes, of_pieces[static_cast<std::size_t>(k)]);
+    });
+  });
+  MassMoment out;
+  for (const MassMoment& piece : of_pieces) {
+    out.mass += piece.mass;
+    out.first += piece.first;
+  }
+  return out;
+}
+
 AssembledInertia assemble_inertia(const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
                                   const MeshView& mesh, const Eigen::Vector3d& com) {
+  TaskPool* pool = mesh.pool;
   AssembledInertia out;
   out.sum.c = linalg::Matrix::Zero(mesh.dofs.num_dofs, 9);
   std::optional<EntrySums> Ms;
+  std::vector<InertiaSum> sums(pool != nullptr ? static_cast<std::size_t>(pool->threads()) : 1);
+  std::vector<std::span<const Triplet>> scalar_masses(sums.size());
   for (const auto& block : blocks) {
-    visit_pieces(*block, mesh.nodes, [&](const ElementBlock& piece, int) {
-      piece.add_inertia(mesh, com, out.sum);
-      if (out.sum.nodal.empty()) return;
-      if (!Ms) Ms.emplace(blocks, one_per_node(mesh.nodes.size()));
-      Ms->add(out.sum.nodal);
-      out.sum.nodal.clear();
-    });
+    const ElementPieces pieces(*block, mesh.nodes);
+    const auto at_once = static_cast<int>(sums.size());
+    for (int first = 0; first < pieces.count(); first += at_once) {
+      const int count = std::min(at_once, pieces.count() - first);
+      run_tasks(pool, count, [&](int k) {
+        InertiaSum& own = sums[static_cast<std::size_t>(k)];
+        if (own.c.size() == 0) own.c = linalg::Matrix::Zero(mesh.dofs.num_dofs, 9);
+        pieces.visit(first + k,
+                     [&](const ElementBlock& piece, int) { piece.add_inertia(mesh, com, own); });
+      });
+      for (int k = 0; k < count; ++k) {
+        add(*block, pieces.begin(first + k), pieces.begin(first + k + 1), mesh.dofs,
+            sums[static_cast<std::size_t>(k)], out.sum);
+      }
+      const bool has_scalar_mass = std::any_of(
+          sums.begin(), sums.end(), [](const InertiaSum& own) { return !own.nodal.empty(); });
+      if (!has_scalar_mass) continue;
+      if (!Ms) Ms.emplace(blocks, one_per_node(mesh.nodes.size()), pool);
+      for (std::size_t k = 0; k < sums.size(); ++k) scalar_masses[k] = sums[k].nodal;
+      Ms->add(scalar_masses, pool);
+      for (InertiaSum& own : sums) own.nodal.clear();
+    }
   }
-  std::vector<Triplet>().swap(out.sum.nodal);
   if (Ms) Ms->take().swap(out.scalar_mass);
   return out;
 }

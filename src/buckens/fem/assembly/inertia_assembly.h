@@ -7,6 +7,7 @@
 
 #include "buckens/fem/element/block.h"
 #include "buckens/fem/element/shape_integrals.h"
+#include "buckens/linalg/symmetric_matrix.h"
 
 namespace buckens::fem {
 
@@ -15,7 +16,10 @@ struct AssembledInertia {
   linalg::SparseMatrix scalar_mass;  ///< of what elements have added to `nodal`, or empty
 };
 
-/// Sums the inertia of all elements, some thousand at a time.
+/// Of all elements of a block.
+MassMoment mass_moment(const ElementBlock& block, const MeshView& mesh);
+
+/// Sums the inertia of all elements, a hundred or so per thread at a time.
 /// @param com mass centre of the whole body in model axes [m]
 AssembledInertia assemble_inertia(const std::vector<std::shared_ptr<const ElementBlock>>& blocks,
                                   const MeshView& mesh, const Eigen::Vector3d& com);

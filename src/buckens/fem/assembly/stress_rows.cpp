@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "buckens/base/allowed_threads.h"
 #include "buckens/fem/assembly/element_pieces.h"
 #include "buckens/fem/assembly/made_columns.h"
 #include "buckens/fem/assembly/mesh_part.h"
@@ -21,6 +22,8 @@ namespace {
 using Blocks = std::vector<std::shared_ptr<const ElementBlock>>;
 
 constexpr int kRowsOfSolid = 6, kRowsOfShell = 12;
+// Those of fewer are listed within some 10 ms.
+constexpr int kManyRows = 12000;
 
 /// Calls visit(block, its first row, rows of each of its elements): solids, then shells. Others
 /// have no stresses of this kind.
@@ -43,40 +46,64 @@ int num_rows(const Blocks& blocks) {
   return visit_stressed(blocks, [](const ElementBlock&, int, int) {});
 }
 
-/// Calls visit(row, column, value) for the entries, row by row, columns ascending.
+/// The entries of the rows of a piece, row by row, columns ascending.
+/// @param rows of the piece
+std::vector<linalg::Triplet> entries_of(const ElementBlock& piece, int rows, const MeshView& mesh) {
+  std::vector<linalg::Triplet> listed;
+  piece.add_stress_rows(mesh, 0, listed);
+  std::vector<std::size_t> next(static_cast<std::size_t>(rows) + 1, 0);
+  for (const linalg::Triplet& entry : listed) ++next[static_cast<std::size_t>(entry.row()) + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<linalg::Triplet> out(listed.size());
+  for (const linalg::Triplet& entry : listed) {
+    // Columns of a row are few, and most of them ascend already.
+    std::size_t place = next[static_cast<std::size_t>(entry.row())]++;
+    for (; place > 0 && out[place - 1].row() == entry.row() && out[place - 1].col() > entry.col();
+         --place) {
+      out[place] = out[place - 1];
+    }
+    out[place] = entry;
+  }
+  return out;
+}
+
+/// Calls visit(row, column, value) for the entries, row by row, columns ascending. Of several
+/// threads, each visits the rows of other pieces.
 /// @param begin,end rows that are wanted; of others there may be some
 template <class Visitor>
-void visit_entries(const Blocks& blocks, const MeshView& mesh, int begin, int end,
+void visit_entries(const Blocks& blocks, const MeshView& mesh, int begin, int end, TaskPool* pool,
                    Visitor&& visit) {
   visit_stressed(blocks, [&](const ElementBlock& block, int first_row, int rows) {
-    visit_pieces(block, mesh.nodes, [&](const ElementBlock& piece, int first) {
-      const int first_of_piece = first_row + rows * first;
-      if (first_of_piece >= end || first_of_piece + rows * piece.num_elements() <= begin) return;
-      std::vector<linalg::Triplet> listed;
-      piece.add_stress_rows(mesh, 0, listed);
-      std::sort(listed.begin(), listed.end(), [](const auto& a, const auto& b) {
-        return std::pair(a.row(), a.col()) < std::pair(b.row(), b.col());
+    const ElementPieces pieces(block, mesh.nodes);
+    run_tasks(pool, pieces.count(), [&](int k) {
+      const int first_of_piece = first_row + rows * pieces.begin(k);
+      const int end_of_piece = first_row + rows * pieces.begin(k + 1);
+      if (first_of_piece >= end || end_of_piece <= begin) return;
+      pieces.visit(k, [&](const ElementBlock& piece, int) {
+        for (const linalg::Triplet& entry :
+             entries_of(piece, end_of_piece - first_of_piece, mesh)) {
+          visit(first_of_piece + entry.row(), entry.col(), entry.value());
+        }
       });
-      for (const linalg::Triplet& entry : listed) {
-        visit(first_of_piece + entry.row(), entry.col(), entry.value());
-      }
     });
   });
 }
 
 linalg::SparseRows::RowMajor rows_of_this_process(const Blocks& blocks, const MeshView& mesh) {
   const int count = num_rows(blocks);
+  TaskPool* pool = count >= kManyRows ? base::AllowedThreads::pool() : nullptr;
   linalg::SparseRows::RowMajor out(count, mesh.dofs.num_dofs);
   int* starts = out.outerIndexPtr();
   std::fill_n(starts, out.rows() + 1, 0);
-  const auto visit = [&](auto&& entry) { visit_entries(blocks, mesh, 0, count, entry); };
+  const auto visit = [&](auto&& entry) { visit_entries(blocks, mesh, 0, count, pool, entry); };
   visit([starts](int row, int, double) { ++starts[row + 1]; });
   std::partial_sum(starts, starts + out.rows() + 1, starts);
   out.resizeNonZeros(starts[out.rows()]);
-  int place = 0;
-  visit([&](int, int column, double value) {
+  std::vector<int> next(starts, starts + out.rows());
+  visit([&](int row, int column, double value) {
+    const int place = next[static_cast<std::size_t>(row)]++;
     out.innerIndexPtr()[place] = column;
-    out.valuePtr()[place++] = value;
+    out.valuePtr()[place] = value;
   });
   return out;
 }
@@ -152,7 +179,7 @@ SparseMatrix made_stress_rows(base::BytesFrom description, int first, int end) {
   const MeshPart part = taken_part(description);
   const int begin = first - first_of_part;  // of the part
   const auto visit = [&](auto&& entry) {
-    visit_entries(part.blocks, {part.nodes, part.dofs}, begin, begin + end - first,
+    visit_entries(part.blocks, {part.nodes, part.dofs}, begin, begin + end - first, nullptr,
                   [&](int row, int column, double value) {
                     const int wanted = row - begin;
                     if (wanted < 0 || wanted >= end - first) return;

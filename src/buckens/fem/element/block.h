@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "buckens/base/task_pool.h"
 #include "buckens/fem/element/dof_map.h"
 #include "buckens/fem/element/material.h"
 #include "buckens/fem/line/section.h"
@@ -48,6 +49,7 @@ struct PointRows {
 struct MeshView {
   const std::vector<Node>& nodes;
   const DofMap& dofs;
+  TaskPool* pool = nullptr;  ///< shares what is done with all elements; no bit depends on it
 };
 
 /// All elements of one kind in a body, so that one virtual call processes the whole block.

@@ -2,6 +2,9 @@
 #include "buckens/fem/solid/block.h"
 
 #include <algorithm>
+#include <map>
+#include <mutex>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -100,32 +103,53 @@ SolidBlock SolidBlock::subset(const std::vector<int>& elements,
   return out;
 }
 
-void SolidBlock::check(const MeshView& mesh) const {
-  struct Inverted {
-    int element;
-    double volume;
-  };
-  std::vector<Inverted> inverted;
-  const auto where = [&](int e) {
-    const SolidTopology& topology = solid_topology(form(e).kind);
-    const auto opposite =
-        static_cast<std::size_t>(topology.is_hexahedron() ? 6 : topology.num_corners - 1);
-    return fmt::format("solid element {} ({}) between {} and {}", at(e).number,
-                       choice_names(form(e).kind)[static_cast<std::size_t>(form(e).kind)],
-                       node_label(mesh.nodes, nodes(e)[0]),
-                       node_label(mesh.nodes, nodes(e)[opposite]));
-  };
-  for (int e = 0; e < num_elements(); ++e) {
-    const NodeVectors x = positions(mesh.nodes, e);
+std::string SolidBlock::place(const std::vector<Node>& all, int element) const {
+  const SolidTopology& topology = solid_topology(form(element).kind);
+  const auto opposite =
+      static_cast<std::size_t>(topology.is_hexahedron() ? 6 : topology.num_corners - 1);
+  const SolidKind kind = form(element).kind;
+  return fmt::format("solid element {} ({}) between {} and {}", at(element).number,
+                     choice_names(kind)[static_cast<std::size_t>(kind)],
+                     node_label(all, nodes(element)[0]), node_label(all, nodes(element)[opposite]));
+}
+
+std::vector<SolidBlock::Inverted> SolidBlock::checked(const std::vector<Node>& all, int begin,
+                                                      int end) const {
+  std::vector<Inverted> out;
+  std::vector<bool> is_known(materials_.size(), false);
+  for (int e = begin; e < end; ++e) {
+    const NodeVectors x = positions(all, e);
     const double size = (x.rowwise().maxCoeff() - x.rowwise().minCoeff()).norm();
-    refuse_collapsed([&] { return where(e); }, nodes(e), mesh.nodes);
+    refuse_collapsed([&] { return place(all, e); }, nodes(e), all);
     const double least = solid_least_volume(form(e).kind, x);
     // Jacobians are eighths of volumes (hexahedra) up to six volumes; one part in 1e12 of the
     // bounding cube is flat.
-    if (!(8.0 * least > 1e-12 * size * size * size)) inverted.push_back({e, least});
-    check_solid_material(where(e), *material(e));
+    if (!(8.0 * least > 1e-12 * size * size * size)) out.push_back({e, least});
+    const auto material = static_cast<std::size_t>(at(e).material);
+    if (!is_known[material]) check_solid_material(place(all, e), materials_[material]);
+    is_known[material] = true;
   }
-  if (inverted.empty()) return;
+  return out;
+}
+
+void SolidBlock::check(const MeshView& mesh) const {
+  std::mutex turn;
+  std::map<int, std::vector<Inverted>> by_range;
+  // Of several ranges with a fault, the error of the first one is told.
+  run_ranges(mesh.pool, num_elements(), [&](int begin, int end) {
+    std::vector<Inverted> found = checked(mesh.nodes, begin, end);
+    const std::lock_guard lock(turn);
+    by_range[begin] = std::move(found);
+  });
+  std::vector<Inverted> inverted;
+  for (const auto& [begin, found] : by_range) {
+    inverted.insert(inverted.end(), found.begin(), found.end());
+  }
+  if (!inverted.empty()) refuse_inverted(mesh.nodes, inverted);
+}
+
+void SolidBlock::refuse_inverted(const std::vector<Node>& all,
+                                 const std::vector<Inverted>& inverted) const {
   constexpr std::size_t kMostNamed = 10;
   std::vector<std::string> others;
   for (std::size_t k = 1; k < inverted.size() && k < kMostNamed; ++k) {
@@ -139,7 +163,7 @@ void SolidBlock::check(const MeshView& mesh) const {
       fmt::format("{}: its Jacobian falls to {:.3g} m³ where it is integrated, so it is inverted "
                   "or flat{}; {}, "
                   "or move a node",
-                  where(first), volume,
+                  place(all, first), volume,
                   others.empty() ? "" : fmt::format(", and so are {}", fmt::join(others, ", ")),
                   order_of_nodes(solid_topology(form(first).kind))));
 }

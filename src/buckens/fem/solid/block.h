@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "buckens/fem/element/block.h"
@@ -73,7 +74,18 @@ class SolidBlock final : public ElementBlock {
     std::int64_t number;  // in messages
   };
 
+  struct Inverted {
+    int element;
+    double volume;
+  };
+
   const Element& at(int element) const { return elements_.at(static_cast<std::size_t>(element)); }
+  /// For messages. @param all nodes of the mesh
+  std::string place(const std::vector<Node>& all, int element) const;
+  /// Those of elements `begin` to `end` that are inverted or flat.
+  std::vector<Inverted> checked(const std::vector<Node>& all, int begin, int end) const;
+  [[noreturn]] void refuse_inverted(const std::vector<Node>& all,
+                                    const std::vector<Inverted>& inverted) const;
 
   std::vector<Material> materials_;
   std::vector<Element> elements_;

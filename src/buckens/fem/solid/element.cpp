@@ -73,7 +73,11 @@ const ShapeRule& node_rule(SolidKind kind) {
 }
 
 Matrix3d jacobian(const NodeVectors& x, const SolidShape& shape) {
-  return x.lazyProduct(shape.slope.transpose());  // ∂x/∂ξ
+  Matrix3d J = x.col(0) * shape.slope.col(0).transpose();  // ∂x/∂ξ
+  for (Eigen::Index node = 1; node < x.cols(); ++node) {
+    J.noalias() += x.col(node) * shape.slope.col(node).transpose();
+  }
+  return J;
 }
 
 double least_volume(const ShapeRule& rule, const NodeVectors& x) {

@@ -131,12 +131,14 @@ SolidRecovery::SolidRecovery(const FeModel& fe)
 }
 
 linalg::Matrix stresses_of_rows(const linalg::Vector& products, Eigen::Index solids,
-                                Eigen::Index shells) {
+                                Eigen::Index shells, TaskPool* pool) {
   linalg::Matrix out(7, solids + shells);
-  for (Eigen::Index e = 0; e < solids; ++e) {
-    out.col(e).head<6>() = products.segment<6>(6 * e);
-    out(kMises, e) = mises_stress(products.segment<6>(6 * e));
-  }
+  run_ranges(pool, static_cast<int>(solids), [&](Eigen::Index begin, Eigen::Index end) {
+    for (Eigen::Index e = begin; e < end; ++e) {
+      out.col(e).head<6>() = products.segment<6>(6 * e);
+      out(kMises, e) = mises_stress(products.segment<6>(6 * e));
+    }
+  });
   for (Eigen::Index e = 0; e < shells; ++e) {
     const Eigen::Index first = 6 * solids + 12 * e;
     out.col(solids + e).head<6>() = products.segment<6>(first);
@@ -146,8 +148,8 @@ linalg::Matrix stresses_of_rows(const linalg::Vector& products, Eigen::Index sol
   return out;
 }
 
-linalg::Matrix SolidRecovery::stresses(const linalg::Vector& d) const {
-  return stresses_of_rows(rows_ * d, num_solids_, num_shells_);
+linalg::Matrix SolidRecovery::stresses(const linalg::Vector& d, TaskPool* pool) const {
+  return stresses_of_rows(rows_.multiplied(d, pool), num_solids_, num_shells_, pool);
 }
 
 }  // namespace buckens::fem

@@ -40,7 +40,7 @@ Eigen::Matrix<double, 6, 6> mises_factor();
 
 /// The table of SolidRecovery::stresses from products with the rows of elements (stress_rows.h).
 linalg::Matrix stresses_of_rows(const linalg::Vector& products, Eigen::Index solids,
-                                Eigen::Index shells);
+                                Eigen::Index shells, TaskPool* pool = nullptr);
 
 /// Stresses of all solid elements at once, at their centres, where those of trilinear elements are
 /// most accurate. For shells, which are numbered after them, stresses of both sides.
@@ -54,7 +54,7 @@ class SolidRecovery {
   /// @return 7×(number of elements): σ_xx, σ_yy, σ_zz, τ_xy, τ_yz, τ_zx in model axes, then the von
   ///         Mises stress [Pa]. Shells: those of the side the normal points to, and the larger of
   ///         the von Mises stresses of both sides. Cost: one sparse product.
-  linalg::Matrix stresses(const linalg::Vector& d) const;
+  linalg::Matrix stresses(const linalg::Vector& d, TaskPool* pool = nullptr) const;
   /// The largest von Mises stress, found by other processes if they have the rows and the nodal
   /// variables: one number comes from each.
   std::optional<double> largest_elsewhere(const linalg::NodalVector& d) const {

@@ -251,10 +251,45 @@ void SolidStrains::evaluate_any(const Element& element, const linalg::Vector& d,
   }
 }
 
+void SolidStrains::add_by_threads(const linalg::Vector& d, TensorColumns& at_places,
+                                  TensorColumns& at_elements, TaskPool& pool) const {
+  // What so many elements of each thread list stays in its cache. Then threads add, taking places
+  // in turns, some cache lines each.
+  constexpr std::size_t kAtOnce = 256;
+  constexpr int kPlacesInTurn = 8;
+  const int threads = pool.available();
+  std::vector<std::vector<StrainAtPlace>> lists(static_cast<std::size_t>(threads));
+  const auto at_centre = [&](int row, const Tensor& strain) { at_elements.col(row) = strain; };
+  std::size_t first = 0;
+  const auto list = [&](int k) {
+    auto& own = lists[static_cast<std::size_t>(k)];
+    own.clear();
+    const auto at_node = [&](int place, Eigen::Index /*corner*/, const Tensor& strain) {
+      own.push_back({place, share_[static_cast<std::size_t>(place)] * strain});
+    };
+    const std::size_t begin = first + kAtOnce * static_cast<std::size_t>(k);
+    for (std::size_t e = begin; e < std::min(begin + kAtOnce, elements_.size()); ++e) {
+      evaluate_any(elements_[e], d, at_node, at_centre);
+    }
+  };
+  const auto add = [&](int k) {
+    for (const auto& of_thread : lists) {
+      for (const StrainAtPlace& at : of_thread) {
+        if (at.place / kPlacesInTurn % threads == k) at_places.col(at.place) += at.strain;
+      }
+    }
+  };
+  for (; first < elements_.size(); first += kAtOnce * lists.size()) {
+    pool.run(threads, list);
+    pool.run(threads, add);
+  }
+}
+
 void SolidStrains::evaluate(const linalg::Vector& d, TensorColumns& at_places,
-                            TensorColumns& at_elements) const {
+                            TensorColumns& at_elements, TaskPool* pool) const {
   at_places.setZero(6, static_cast<Eigen::Index>(places_.size()));
   at_elements.resize(6, num_elements());
+  if (pool != nullptr) return add_by_threads(d, at_places, at_elements, *pool);
   const auto at_node = [&](int place, Eigen::Index /*corner*/, const Tensor& strain) {
     at_places.col(place) += share_[static_cast<std::size_t>(place)] * strain;
   };
@@ -289,19 +324,24 @@ EnergyOfError SolidStrains::energy_of_error(const linalg::Vector& d,
 
 void SolidStrains::stresses(const TensorColumns& strain_at_places,
                             const TensorColumns& strain_at_elements, TensorColumns& at_places,
-                            TensorColumns& at_elements) const {
+                            TensorColumns& at_elements, TaskPool* pool) const {
   at_places.setZero(6, strain_at_places.cols());
-  for (Eigen::Index p = 0; p < at_places.cols(); ++p) {
-    const int material = places_[static_cast<std::size_t>(p)].material;
-    if (material < 0) continue;
-    at_places.col(p) = elasticities_[static_cast<std::size_t>(material)] * strain_at_places.col(p);
-  }
+  run_ranges(pool, static_cast<int>(at_places.cols()), [&](int begin, int end) {
+    for (int p = begin; p < end; ++p) {
+      const int material = places_[static_cast<std::size_t>(p)].material;
+      if (material < 0) continue;
+      at_places.col(p) =
+          elasticities_[static_cast<std::size_t>(material)] * strain_at_places.col(p);
+    }
+  });
   at_elements.resize(6, strain_at_elements.cols());
-  for (Eigen::Index e = 0; e < at_elements.cols(); ++e) {
-    const int material = element_materials_[static_cast<std::size_t>(e)];
-    at_elements.col(e) =
-        elasticities_[static_cast<std::size_t>(material)] * strain_at_elements.col(e);
-  }
+  run_ranges(pool, static_cast<int>(at_elements.cols()), [&](int begin, int end) {
+    for (int e = begin; e < end; ++e) {
+      const int material = element_materials_[static_cast<std::size_t>(e)];
+      at_elements.col(e) =
+          elasticities_[static_cast<std::size_t>(material)] * strain_at_elements.col(e);
+    }
+  });
 }
 
 Vector3d principal_stresses(const Eigen::Ref<const Tensor>& s) {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "buckens/base/task_pool.h"
 #include "buckens/fem/element/elasticity.h"
 #include "buckens/fem/fe_model.h"
 #include "buckens/fem/solid/sampling.h"
@@ -53,12 +54,14 @@ class SolidStrains {
   /// @param d nodal variables
   /// @param at_places 6×places; zero where there is no solid
   /// @param at_elements 6×elements, at their centres
-  void evaluate(const linalg::Vector& d, TensorColumns& at_places,
-                TensorColumns& at_elements) const;
+  /// @param pool null: the calling thread alone. No bit depends on it
+  void evaluate(const linalg::Vector& d, TensorColumns& at_places, TensorColumns& at_elements,
+                TaskPool* pool = nullptr) const;
 
   /// Stresses from strains of evaluate(), each with its own elasticity.
   void stresses(const TensorColumns& strain_at_places, const TensorColumns& strain_at_elements,
-                TensorColumns& at_places, TensorColumns& at_elements) const;
+                TensorColumns& at_places, TensorColumns& at_elements,
+                TaskPool* pool = nullptr) const;
 
   /// How far the strains of the elements are from continuous ones, in the energy norm (Zienkiewicz
   /// & Zhu, 1987); docs/theory/21-errors.md (E2).
@@ -88,6 +91,14 @@ class SolidStrains {
   template <class AtNode, class AtCentre>
   void evaluate_any(const Element& element, const linalg::Vector& d, const AtNode& at_node,
                     const AtCentre& at_centre) const;
+
+  struct StrainAtPlace {
+    int place;
+    Eigen::Matrix<double, 6, 1> strain;
+  };
+  /// Adds to the means at places, in the order of the elements.
+  void add_by_threads(const linalg::Vector& d, TensorColumns& at_places, TensorColumns& at_elements,
+                      TaskPool& pool) const;
 
   const FeModel& fe_;
   std::vector<StrainPlace> places_;

@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include "buckens/base/allowed_threads.h"
 #include "buckens/base/errors.h"
 #include "buckens/linalg/elimination_order.h"
-#include "buckens/linalg/factor_threads.h"
 #include "buckens/linalg/sparse_cholesky.h"
 #include "buckens/linalg/test/definite_matrices.h"
 
@@ -130,7 +130,7 @@ TEST(MatrixSumTest, FactorsReadItColumnByColumn) {
   beside.setFromTriplets(entries.begin(), entries.end());
   const Vector b = scattered_block(K.cols(), 1, 3);
   for (const int threads : {1, 2}) {
-    const FactorThreads allowed(threads);
+    const base::AllowedThreads allowed(threads);
     MatrixSum sum;
     sum.add(7.7, M);
     sum.add(1.0 / 3.0, K);

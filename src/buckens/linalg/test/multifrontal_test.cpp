@@ -9,8 +9,8 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include "buckens/base/allowed_threads.h"
 #include "buckens/base/task_pool.h"
-#include "buckens/linalg/factor_threads.h"
 #include "buckens/linalg/front.h"
 #include "buckens/linalg/front_plan.h"
 #include "buckens/linalg/predicted_factor.h"
@@ -220,17 +220,17 @@ TEST(Multifrontal, SharesAFactorAmongTheThreadsAllowed) {
   const SparseMatrix A = matrices::grid(13, 0.1);
   const Matrix B = Matrix::Ones(A.rows(), 2);
   const Matrix alone = SparseCholesky(A).solve(B);
-  EXPECT_EQ(FactorThreads::allowed(), 1);
+  EXPECT_EQ(base::AllowedThreads::count(), 1);
   {
-    const FactorThreads four(4);
+    const base::AllowedThreads four(4);
     EXPECT_EQ(SparseCholesky(A).solve(B), alone);
     {
-      const FactorThreads two(2);
-      EXPECT_EQ(FactorThreads::allowed(), 2);
+      const base::AllowedThreads two(2);
+      EXPECT_EQ(base::AllowedThreads::count(), 2);
     }
-    EXPECT_EQ(FactorThreads::allowed(), 4);
+    EXPECT_EQ(base::AllowedThreads::count(), 4);
   }
-  EXPECT_EQ(FactorThreads::allowed(), 1);
+  EXPECT_EQ(base::AllowedThreads::count(), 1);
 }
 
 TEST(Multifrontal, NamesTheSameColumnWithAnyNumberOfThreads) {

@@ -12,11 +12,11 @@
 
 #include <gtest/gtest.h>
 
+#include "buckens/base/allowed_threads.h"
 #include "buckens/base/errors.h"
 #include "buckens/base/task_pool.h"
 #include "buckens/linalg/conjugate_gradients.h"
 #include "buckens/linalg/elimination_order.h"
-#include "buckens/linalg/factor_threads.h"
 #include "buckens/linalg/matrix_sum.h"
 #include "buckens/linalg/same_bits.h"
 #include "buckens/linalg/sparse_cholesky.h"
@@ -348,7 +348,7 @@ TEST(MatrixInBlocks, FactorsHaveTheBitsOfThoseOfWholeMatrices) {
   const SumWithBlocks of(9);
   const Vector b = scattered_block(of.full.cols(), 1, 3);
   for (const int threads : {1, 2}) {
-    const FactorThreads allowed(threads);
+    const base::AllowedThreads allowed(threads);
     Vector x = b, expected = b;
     SparseCholesky(of.sum).solve_in_place(x);
     SparseCholesky(of.expected).solve_in_place(expected);
