@@ -118,11 +118,19 @@ def serial(tmp_path_factory):
     return (out / "sweep.csv").read_text()
 
 
+def size_of(rows):
+    """Of the files of finished variants [bytes], or 0 while one of them goes: they become one when a study ends."""
+    try:
+        return sum(file.stat().st_size for file in list(rows.glob("*.jsonl")))
+    except FileNotFoundError:
+        return 0
+
+
 def now_and_then(stop, rows, act, most, every):
     """Acts each time that some more variants are finished."""
     size, acts = 0, 0
     while not stop.wait(0.005) and acts < most:
-        now = sum(file.stat().st_size for file in list(rows.glob("*.jsonl")))
+        now = size_of(rows)
         if now > size + every:
             size, acts = now, acts + 1
             act()
