@@ -10,12 +10,15 @@ class Goals:
     def __init__(self, results):
         self.blocks = {}  # by section and block
         self.named = {}   # results of Google Benchmark
+        self.preparations = {}  # by block, threads and whether the factor is stored
         for key, section in results.items():
             for row in section["rows"]:
                 if "error" in row:
                     continue
                 if "name" in row:
                     self.named[row["name"]] = row
+                elif "stored" in row:
+                    self.preparations[f"{row['element']} {row['divisions']}", row["threads"], row["stored"]] = row
                 elif "method" not in row or row["method"] == "subspace":
                     block = f"{row['element']} {row['divisions']}"
                     on_two = " on two threads" if row.get("method") and row.get("threads") == 2 else ""
@@ -138,6 +141,16 @@ class Goals:
                 self.add(f"{block}, `full`: step on 2 threads ÷ on one", goal, two / one,
                          max((b for b in bounds if b), default=None))
 
+    def preparation(self):
+        rows = self.preparations
+        for block in sorted({block for block, _, _ in rows}):
+            one, two = rows.get((block, 1, False)), rows.get((block, 2, False))
+            if one and two:
+                self.add(f"{block}: set-up on 2 threads ÷ on one", 1.0 / (2 * 0.9), two["seconds"] / one["seconds"])
+            stored = rows.get((block, 2, True))
+            if stored and stored["dof"] > 200000:
+                self.add(f"{block}: first step with a stored factor", 10.0, stored["seconds"], unit=" s", spread=self.range(stored, 1.0))
+
     def modes(self):
         for block, goal in (("hex8 274 x 10 x 10", 7.0), ("tet10 137 x 5 x 5", 7.0), ("hex8 31 x 31 x 31", 15.0),
                             ("tet10 16 x 16 x 15", 15.0)):
@@ -149,6 +162,6 @@ class Goals:
 
 def goal_rows(results):
     goals = Goals(results)
-    for part in (goals.full_coupling, goals.strands, goals.variants, goals.threads, goals.factors, goals.modes):
+    for part in (goals.full_coupling, goals.strands, goals.variants, goals.threads, goals.preparation, goals.factors, goals.modes):
         part()
     return goals.rows

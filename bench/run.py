@@ -21,6 +21,7 @@ import sys
 import tempfile
 import time
 
+import preparation
 import table
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -172,6 +173,11 @@ def beams(programs):
     return programs.google("step_bench", "beam_solve|^beam_step")
 
 
+def prepare(programs, size):
+    blocks = [preparation.LARGER] if size == "300000" else BLOCKS[size][:1]
+    return [row for block in blocks for row in preparation.rows(programs.buckens, block)]
+
+
 def processes_memory(pid):
     """Resident bytes of a process; 0 if it has ended."""
     try:
@@ -233,6 +239,8 @@ for key in BLOCKS:
         SECTIONS[f"modes:{key}"] = lambda p, size=key: modes(p, size)
     if key in ("30000", "slender"):
         SECTIONS[f"variants:{key}"] = lambda p, size=key: variants(p, size)
+    if key in ("slender", "100000", "300000"):
+        SECTIONS[f"preparation:{key}"] = lambda p, size=key: prepare(p, size)
     if key in ("30000", "slender", "100000", "300000"):
         SECTIONS[f"memory:{key}"] = lambda p, size=key: memory(p, size)
 SECTIONS.update({"reduced": reduced, "chains": chains, "machines": machines, "frames": frames, "beams": beams})

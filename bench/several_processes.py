@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """One large cube of solids whose factor is distributed over several processes: memory of each, time of a step.
 
-    bench/several_processes.py PROGRAM --side 31 --processes 1 2 4 --into docs/developers/several_processes.json
+    bench/several_processes.py PROGRAM --side 31 --processes 1 2 4
+    bench/several_processes.py                                      writes the tables again
 
-Prints a table and adds the runs to the file. One process has the factor of the program itself; `--mumps` lets it use MUMPS, too. Times are wall
-times: several processes on fewer processors share them. Messages and bytes are those of all processes, MUMPS included, as Open MPI counts them
-(its component `monitoring`); those of a step are the difference of a long and a short run.
+Adds the runs to docs/developers/several_processes.json and writes the tables of docs/developers/several-processes.md. One process has the factor of
+the program itself; `--mumps` lets it use MUMPS, too. Times are wall times: several processes on fewer processors share them. Messages and bytes are
+those of all processes, MUMPS included, as Open MPI counts them (its component `monitoring`); those of a step are the difference of a long and a short
+run.
 """
 
 import argparse
@@ -17,6 +19,7 @@ import subprocess
 import tempfile
 import time
 
+import processes_table
 from large_bodies import MODEL
 
 MUMPS = "{petsc: \"-ksp_type preonly -pc_type cholesky -pc_factor_mat_solver_type mumps\"}"
@@ -101,6 +104,7 @@ def measure(program, side, processes, steps, solver):
     return {"side": side, "variables": body["dof"], "processes": processes,
             "solver": "MUMPS" if solver == MUMPS or processes > 1 else "own",
             "setup_seconds": summary["wall_seconds"]["setup"],
+            "factor_seconds": summary["wall_seconds"]["preparation"]["factor"],
             "solve_seconds": summary["wall_seconds"]["phases"]["large_solves"] / body["solves"],
             "step_seconds": summary["wall_seconds"]["stepping"] / summary["steps"],
             "solves": body["solves"], "steps": summary["steps"], "peak_bytes": memory[0], "stepping_bytes": memory[1],
@@ -117,15 +121,15 @@ def measure(program, side, processes, steps, solver):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program", help="buckens, built with BUCKENS_MPI=ON")
+    parser.add_argument("program", nargs="?", help="buckens, built with BUCKENS_MPI=ON; none: no run")
     parser.add_argument("--side", type=int, default=31, help="elements along an edge")
     parser.add_argument("--processes", type=int, nargs="*", default=[1, 2, 4])
     parser.add_argument("--steps", type=int, default=20)
     parser.add_argument("--mumps", action="store_true", help="MUMPS for one process, too")
-    parser.add_argument("--into", type=pathlib.Path, required=True, help="file with the figures")
+    parser.add_argument("--into", type=pathlib.Path, default=processes_table.RESULTS, help="file with the figures")
     arguments = parser.parse_args()
     rows = json.loads(arguments.into.read_text()) if arguments.into.exists() else []
-    for processes in arguments.processes:
+    for processes in arguments.processes if arguments.program else []:
         row = measure(arguments.program, arguments.side, processes, arguments.steps,
                       MUMPS if arguments.mumps else "direct")
         key = (row["side"], row["solver"], row["processes"])
@@ -135,6 +139,7 @@ def main():
         print("| {variables} | {processes} | {solver} | {setup_seconds:.1f} | {solve_seconds:.3f} | {step_seconds:.3f} | ".format(**row)
               + " | ".join(", ".join(f"{m / 1e9:.2f}" for m in row[key]) for key in ("peak_bytes", "peak_bytes_in_shares", "stepping_bytes"))
               + " | {messages_per_step:.0f} | {0:.2f} |".format(row["bytes_per_step"] / 1e6, **row), flush=True)
+    processes_table.write(rows)
 
 
 if __name__ == "__main__":

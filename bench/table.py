@@ -251,6 +251,26 @@ def memory_table(results):
             "accounts for.", "", *lines_of(head, cells), *failures(rows)]
 
 
+PHASES = ["assembly", "order", "factor", "stored_factors", "lowest_frequency", "responses"]
+
+
+def preparation_table(results):
+    rows = list(of_section(results, "preparation"))
+    cells = []
+    for row in rows:
+        if "error" in row:
+            continue
+        phases = [row["phases"].get(name) for name in PHASES]
+        rest = row["seconds"] - sum(seconds or 0.0 for seconds in phases)
+        threads = f"{row['threads']}, factor stored" if row["stored"] else str(row["threads"])
+        cells.append([shape(row), dofs(row["dof"]), threads, number(row["seconds"]), *[number(seconds, 2) for seconds in phases],
+                      number(rest, 2), ms(row["record"])])
+    head = ["block", "DOF", "threads", "to the first step [s]", *[name.replace("_", " ") for name in PHASES], "rest", "record [ms]"]
+    return ["### From the model file to the first step", "",
+            "Phases of `wall_seconds.preparation` in seconds, the fastest of three runs. A record contains displacements, energies, stresses at centres "
+            "and nodes, and what the program accounts for.", "", *lines_of(head, cells), *failures(rows)]
+
+
 def goal_table(results):
     rows = goals.goal_rows(results)
     if not rows:
@@ -283,7 +303,7 @@ def tables(results):
     frame = {"frames": "frames", "per frame": "per frame [µs]", "newton/step": "iterations"}
     return [
         origin(results), "", *goal_table(results), *factor_table(results), *solve_table(results), *tree_table(results), *step_table(results), *setup_table(results),
-        *mode_table(results),
+        *preparation_table(results), *mode_table(results),
         *google_table("Reduced body on a ball joint", results, "reduced", "reduced_step",
                       {"solves/step": "divisions by K̂", "newton/step": "iterations"}),
         *variant_table(results),

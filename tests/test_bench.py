@@ -55,3 +55,16 @@ def test_bound_of_variants_is_that_of_the_columns_of_a_solve():
     variant = {**block, "none": {"1": 4e-3, "6": 5.6e-3}, "full": {"1": 5e-3, "6": 7.5e-3}}
     rows = goals.goal_rows({"solves:1": {"rows": [solve]}, "variants:1": {"rows": [variant]}})
     assert [row[1:] for row in rows] == [["≤ 1.4", "1.4", "–", "1.25", "–", "yes"], ["≤ 1.4", "1.5", "–", "1.2", "–", "**no**"]]
+
+
+def test_set_up_is_compared_by_threads_and_with_a_stored_factor():
+    def row(threads, stored, seconds):
+        return {"element": "hex8", "divisions": "9 x 1 x 1", "threads": threads, "stored": stored, "seconds": seconds, "dof": 300000,
+                "all_seconds": [seconds, 1.1 * seconds, 1.2 * seconds], "phases": {"assembly": 1.0, "factor": 2.0}, "record": 0.02}
+
+    results = {"preparation:1": {"rows": [row(1, False, 8.0), row(2, False, 4.4), row(2, True, 12.0)]}}
+    rows = {row[0]: row[1:] for row in goals.goal_rows(results)}
+    assert rows == {"hex8 9 x 1 x 1: set-up on 2 threads ÷ on one": ["≤ 0.556", "0.55", "–", "–", "–", "yes"],
+                    "hex8 9 x 1 x 1: first step with a stored factor": ["≤ 10 s", "12 s", "13.2 s (12 s to 14.4 s)", "–", "–", "**no**"]}
+    table_lines = table.preparation_table(results)
+    assert any("2, factor stored" in line and "20" in line for line in table_lines)
