@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "buckens/linalg/panel_file.h"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -26,7 +28,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Changes whenever the layout of panels or of this file changes.
-constexpr char kMagic[16] = "Buckens panel 2";
+constexpr char kMagic[16] = "Buckens panel 3";
 constexpr std::uint64_t kByteOrder = 0x0102030405060708U;
 constexpr std::size_t kKeyLength = 32;
 
@@ -35,20 +37,58 @@ void add_run(ContentHash& hash, const T* values, std::size_t count) {
   hash.add(values, count * sizeof(T));
 }
 
-std::string key_of(const SparseMatrix& A) {
+/// Of all entries, from hashes of some columns each, so that threads may share the columns.
+/// @param visit calls a function that it gets as entry(row, value) for the entries of a column
+template <class VisitColumn>
+std::string key_of(Eigen::Index size, VisitColumn&& visit, TaskPool* pool) {
+  constexpr Eigen::Index kColumns = 256;
+  std::vector<std::array<std::uint64_t, 2>> parts(
+      static_cast<std::size_t>((size + kColumns - 1) / kColumns));
+  run_ranges(pool, static_cast<int>(parts.size()), [&](int begin, int end) {
+    std::vector<int> rows, starts;
+    std::vector<double> values;
+    for (int part = begin; part < end; ++part) {
+      rows.clear();
+      starts.clear();
+      values.clear();
+      const Eigen::Index first = kColumns * part;
+      for (Eigen::Index column = first; column < std::min(first + kColumns, size); ++column) {
+        starts.push_back(static_cast<int>(rows.size()));
+        visit(column, [&](Eigen::Index row, double value) {
+          rows.push_back(static_cast<int>(row));
+          values.push_back(value);
+        });
+      }
+      ContentHash hash;
+      add_run(hash, starts.data(), starts.size());
+      add_run(hash, rows.data(), rows.size());
+      add_run(hash, values.data(), values.size());
+      parts[static_cast<std::size_t>(part)] = hash.value();
+    }
+  });
   ContentHash hash;
   hash.add(kMagic, sizeof kMagic);
-  hash.add(static_cast<std::uint64_t>(A.rows()));
+  hash.add(static_cast<std::uint64_t>(size));
   hash.add(kPanelColumns);
-  if (A.isCompressed()) {
-    add_run(hash, A.outerIndexPtr(), static_cast<std::size_t>(A.cols()) + 1);
-    add_run(hash, A.innerIndexPtr(), static_cast<std::size_t>(A.nonZeros()));
-    add_run(hash, A.valuePtr(), static_cast<std::size_t>(A.nonZeros()));
-    return hash.text();
-  }
-  SparseMatrix compressed = A;
-  compressed.makeCompressed();
-  return key_of(compressed);
+  add_run(hash, parts.data(), parts.size());
+  return hash.text();
+}
+
+std::string key_of(const SparseMatrix& A, TaskPool* pool) {
+  const auto visit = [&A](Eigen::Index column, auto&& entry) {
+    for (SparseMatrix::InnerIterator it(A, column); it; ++it) entry(it.row(), it.value());
+  };
+  return key_of(A.rows(), visit, pool);
+}
+
+std::string key_of(const MatrixSum& A, TaskPool* pool) {
+  A.form_terms();
+  const auto visit = [&A](Eigen::Index column, auto&& entry) {
+    thread_local std::vector<MatrixSum::Entry> entries;
+    A.read_column(column, entries);
+    for (const MatrixSum::Entry& at : entries) entry(at.row, at.value);
+  };
+  return key_of(A.size(), visit, pool);
 }
 
 void warn(const fs::path& path, const std::string& what) {
@@ -147,8 +187,11 @@ struct PanelFile::Runs {
   }
 };
 
-PanelFile::PanelFile(const fs::path& folder, const SparseMatrix& A)
-    : key_(key_of(A)), path_(folder / (key_ + ".factor")) {}
+PanelFile::PanelFile(const fs::path& folder, const SparseMatrix& A, TaskPool* pool)
+    : key_(key_of(A, pool)), path_(folder / (key_ + ".factor")) {}
+
+PanelFile::PanelFile(const fs::path& folder, const MatrixSum& A, TaskPool* pool)
+    : key_(key_of(A, pool)), path_(folder / (key_ + ".factor")) {}
 
 void PanelFile::write(const PanelFactor& factor, double entries) const {
   Header header;

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "buckens/base/task_pool.h"
+#include "buckens/linalg/matrix_sum.h"
 #include "buckens/linalg/matrix_types.h"
 #include "buckens/linalg/panel_factor.h"
 
@@ -14,7 +16,10 @@ namespace buckens::linalg {
 class PanelFile {
  public:
   /// @param A the matrix that the factor belongs to
-  PanelFile(const std::filesystem::path& folder, const SparseMatrix& A);
+  /// @param pool shares the work of finding its key, or null
+  PanelFile(const std::filesystem::path& folder, const SparseMatrix& A, TaskPool* pool = nullptr);
+  /// The same file for the same entries, without forming the sum.
+  PanelFile(const std::filesystem::path& folder, const MatrixSum& A, TaskPool* pool = nullptr);
 
   const std::filesystem::path& path() const { return path_; }
 

@@ -21,6 +21,8 @@ namespace {
 
 // Products of a factorisation, some milliseconds, to which starting threads adds next to nothing.
 constexpr double kManyProducts = 2e7;
+// Columns whose key takes some milliseconds.
+constexpr Eigen::Index kManyColumns = 10000;
 // Bytes of a factor from which it is kept in a folder: smaller ones are made in less than a tenth
 // of a second.
 constexpr double kWorthKeeping = 8e6;
@@ -39,11 +41,9 @@ struct SparseCholesky::Backend {
   void factorise(const MatrixSum& A) {
     if (const SparseMatrix* alone = A.alone()) return factorise(*alone, {});
     A.form_terms();
-    // The key of a factor that is kept in a folder is that of the whole matrix.
-    if (!FactorCache::folder().empty()) return factorise(A.whole(), {});
     size = A.size();
     A.require_finite();
-    make_panels(A, A, best_simd_level(), nullptr);
+    find_panels(A, best_simd_level());
   }
 
   void factorise(const SparseMatrix& A, const CholeskyOptions& options) {
@@ -58,12 +58,14 @@ struct SparseCholesky::Backend {
   }
 
   /// Takes the panels from the folder of factors, or makes them and keeps them there.
-  void find_panels(const SparseMatrix& A, SimdLevel simd) {
+  template <class Pattern>
+  void find_panels(const Pattern& A, SimdLevel simd) {
     if (FactorCache::folder().empty()) return make_panels(A, A, simd, nullptr);
     std::optional<PanelFile> file;
     try {
       const base::TimedPhase phase("stored_factors");
-      file.emplace(FactorCache::folder(), A);
+      file.emplace(FactorCache::folder(), A,
+                   size >= kManyColumns ? base::AllowedThreads::pool() : nullptr);
       if (take_stored(*file, simd)) return;
     } catch (const std::bad_alloc&) {
       throw too_little_memory("factorise", size, 0.0);

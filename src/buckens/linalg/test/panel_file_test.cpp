@@ -68,6 +68,27 @@ TEST_F(StoredFactors, GiveTheSameBits) {
   EXPECT_EQ(told_, "");
 }
 
+TEST_F(StoredFactors, OfSumsAreThoseOfTheirMatrices) {
+  MatrixSum sum;
+  const SymmetricMatrix A(A_);
+  sum.add(0.25, A);
+  sum.add(0.75, A);
+  const SparseMatrix whole = sum.whole();
+  const fs::path expected = PanelFile(folder_, whole).path();
+  TaskPool pool(3);
+  EXPECT_EQ(PanelFile(folder_, sum).path(), expected);
+  EXPECT_EQ(PanelFile(folder_, sum, &pool).path(), expected);
+  EXPECT_EQ(PanelFile(folder_, whole, &pool).path(), expected);
+  EXPECT_NE(PanelFile(folder_, SparseMatrix(2.0 * whole)).path(), expected);
+  const FactorCache cache(folder_);
+  const Matrix made = SparseCholesky(sum).solve(B_);
+  ASSERT_EQ(files().size(), 1U);
+  EXPECT_EQ(files()[0], expected);
+  EXPECT_EQ(SparseCholesky(sum).solve(B_), made);  // as it was stored
+  EXPECT_EQ(SparseCholesky(whole).solve(B_), made);
+  EXPECT_EQ(files().size(), 1U);
+}
+
 TEST_F(StoredFactors, BelongToOneMatrix) {
   EXPECT_EQ(solved(), expected_);
   A_.coeffRef(77, 77) += 1e-12;
