@@ -121,38 +121,75 @@ class FieldsAtNodes {
     return out;
   }
 
-  /// Work of nodal loads on each field.
-  Vector work(const Vector& loads) const {
-    Vector out = Vector::Zero(count());
-    // Fields along three axes have a monomial in common: sums of forces times each.
-    std::vector<Vector3d> sums(monomials_.size(), Vector3d::Zero());
+  /// Work of two sets of nodal loads on each field, in one pass over the nodes.
+  std::array<Vector, 2> work(const Vector& first, const Vector& second) const {
+    std::array<LoadSums, 2> sums{LoadSums(*this, first), LoadSums(*this, second)};
     for (std::size_t node = 0; node < fe_->nodes.size(); ++node) {
-      Vector6 f = Vector6::Zero();
-      bool turns = false;
-      visit_dofs(node, [&](int dof, Eigen::Index k) {
-        f[k] = loads[dof];
-        turns = turns || k >= 3;
-      });
       const Powers at = powers(node);
-      const Vector3d force = length_ * axes_.transpose() * f.head<3>();
-      for (std::size_t m = 0; m < sums.size(); ++m) sums[m] += at.monomial(monomials_[m]) * force;
-      if (!turns) continue;
-      const Vector3d moment = 0.5 * axes_.transpose() * f.tail<3>();
-      for (Eigen::Index k = 0; k < count(); ++k) {
-        const SmoothField& field = fields_[static_cast<std::size_t>(k)];
-        out[k] += at.gradient(field.powers).cross(Vector3d::Unit(field.axis)).dot(moment);
+      std::array<Vector3d, 2> forces;
+      bool turns = false;
+      for (std::size_t k = 0; k < 2; ++k) turns = sums[k].read(node, forces[k]) || turns;
+      for (std::size_t m = 0; m < monomials_.size(); ++m) {
+        const double monomial = at.monomial(monomials_[m]);
+        for (std::size_t k = 0; k < 2; ++k) sums[k].of_monomials[m] += monomial * forces[k];
       }
+      for (std::size_t k = 0; turns && k < 2; ++k) sums[k].add_moments(at);
     }
-    for (Eigen::Index k = 0; k < count(); ++k) {
-      const SmoothField& field = fields_[static_cast<std::size_t>(k)];
-      const auto m = std::ranges::find(monomials_, field.powers) - monomials_.begin();
-      out[k] += sums[static_cast<std::size_t>(m)][field.axis];
-    }
-    return out;
+    return {sums[0].of_fields(), sums[1].of_fields()};
   }
 
  private:
   using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+  /// Of one set of loads.
+  class LoadSums {
+   public:
+    LoadSums(const FieldsAtNodes& fields, const Vector& loads)
+        : of_monomials(fields.monomials_.size(), Vector3d::Zero()),
+          fields_(&fields),
+          loads_(&loads),
+          of_moments_(Vector::Zero(fields.count())) {}
+
+    /// @param force in principal axes @return whether the node has rotations
+    bool read(std::size_t node, Vector3d& force) {
+      Vector6 f = Vector6::Zero();
+      bool turns = false;
+      fields_->visit_dofs(node, [&](int dof, Eigen::Index k) {
+        f[k] = (*loads_)[dof];
+        turns = turns || k >= 3;
+      });
+      force = fields_->length_ * fields_->axes_.transpose() * f.head<3>();
+      moment_ = f.tail<3>();
+      return turns;
+    }
+    /// Of the node that was read last.
+    void add_moments(const Powers& at) {
+      const Vector3d moment = 0.5 * fields_->axes_.transpose() * moment_;
+      for (Eigen::Index k = 0; k < fields_->count(); ++k) {
+        const SmoothField& field = fields_->fields_[static_cast<std::size_t>(k)];
+        of_moments_[k] += at.gradient(field.powers).cross(Vector3d::Unit(field.axis)).dot(moment);
+      }
+    }
+    /// Fields along three axes have a monomial in common: sums of forces times each.
+    Vector of_fields() const {
+      Vector out = of_moments_;
+      for (Eigen::Index k = 0; k < fields_->count(); ++k) {
+        const SmoothField& field = fields_->fields_[static_cast<std::size_t>(k)];
+        const auto m =
+            std::ranges::find(fields_->monomials_, field.powers) - fields_->monomials_.begin();
+        out[k] += of_monomials[static_cast<std::size_t>(m)][field.axis];
+      }
+      return out;
+    }
+
+    std::vector<Vector3d> of_monomials;
+
+   private:
+    const FieldsAtNodes* fields_;
+    const Vector* loads_;
+    Vector3d moment_ = Vector3d::Zero();
+    Vector of_moments_;
+  };
 
   Powers powers(std::size_t node) const {
     return Powers(axes_.transpose() * (fe_->nodes[node].position - fe_->shape.com) / length_);
@@ -196,8 +233,9 @@ Projections projections(const body::FlexiblePart& part, const FieldsAtNodes& fie
     // (Y p)ᵀ A x = pᵀ (Yᵀ A x) for each field p.
     part.sieve.apply_transposed(with_M);
     part.sieve.apply_transposed(with_K);
-    M.col(k) = fields.work(with_M);
-    K.col(k) = fields.work(with_K);
+    const auto work = fields.work(with_M, with_K);
+    M.col(k) = work[0];
+    K.col(k) = work[1];
   });
   std::vector<Eigen::Index> kept;
   for (Eigen::Index k = 0; k < count; ++k) {
