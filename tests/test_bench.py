@@ -10,6 +10,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "bench"))
 
 import goals  # noqa: E402
+import processes_table  # noqa: E402
 import table  # noqa: E402
 
 
@@ -68,3 +69,17 @@ def test_set_up_is_compared_by_threads_and_with_a_stored_factor():
                     "hex8 9 x 1 x 1: first step with a stored factor": ["≤ 10 s", "12 s", "13.2 s (12 s to 14.4 s)", "–", "–", "**no**"]}
     table_lines = table.preparation_table(results)
     assert any("2, factor stored" in line and "20" in line for line in table_lines)
+
+
+def test_page_of_several_processes_holds_its_figures():
+    rows = json.loads(processes_table.RESULTS.read_text())
+    inside = processes_table.PAGE.read_text().split(processes_table.BEGIN)[1].split(processes_table.END)[0]
+    assert inside.strip() == "\n".join(processes_table.tables(rows)).strip()
+    assert "10⁷ variables" in inside
+
+
+def test_laws_of_messages_are_found_again():
+    rows = [{"variables": n, "processes": p, "value": 3.0 * n ** 0.7 * p ** 1.2} for n in (1e3, 1e4, 1e5) for p in (2, 4)]
+    law = processes_table.Law(rows, lambda row: row["value"])
+    assert abs(law(10**7, 64) / (3.0 * 1e7 ** 0.7 * 64 ** 1.2) - 1) < 1e-9  # three numbers of six
+    assert abs(law.worst - 1) < 1e-9
