@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <type_traits>
 
@@ -52,10 +53,10 @@ void run_tasks(TaskPool* pool, int count, Task&& task) {
   }
 }
 
-/// Runs task(begin, end) for as many ranges as there are threads, which together are 0 … count − 1.
+/// Runs task(begin, end) for ranges that together are 0 … count − 1, one per thread, none empty.
 template <class Task>
 void run_ranges(TaskPool* pool, int count, Task&& task) {
-  const int ranges = pool != nullptr ? pool->available() : 1;
+  const int ranges = std::min(pool != nullptr ? pool->available() : 1, count);
   const auto begin = [&](int range) {
     return static_cast<int>(static_cast<long>(count) * range / ranges);
   };
