@@ -74,6 +74,7 @@ AssembledInertia assemble_inertia(const std::vector<std::shared_ptr<const Elemen
   std::vector<InertiaSum> sums(pool != nullptr ? static_cast<std::size_t>(pool->threads()) : 1);
   std::vector<std::span<const Triplet>> scalar_masses(sums.size());
   for (const auto& block : blocks) {
+    if (block->num_elements() == 0) continue;
     const ElementPieces pieces(*block, mesh.nodes);
     const auto at_once = static_cast<int>(sums.size());
     for (int first = 0; first < pieces.count(); first += at_once) {
