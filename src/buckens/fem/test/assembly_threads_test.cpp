@@ -65,11 +65,7 @@ void expect_the_same_by_threads(const Structure& structure) {
 TEST(AssemblyThreads, SolidsAreTheSame) { expect_the_same_by_threads(large_box()); }
 
 TEST(AssemblyThreads, ShellsAreTheSame) {
-  const ShellSection section = ShellSection::homogeneous(damped_steel_of_threads(), 0.002, 0.001);
-  const ShellGrid grid(ShellKind::quad4, 36, 30, section, [](double x, double y) {
-    return Eigen::Vector3d(0.6 * x, 0.4 * y, 0.1 * x * y + 0.05 * std::sin(9 * x));
-  });
-  expect_the_same_by_threads(grid.structure);
+  expect_the_same_by_threads(twisted_shells(damped_steel_of_threads()));
 }
 
 TEST(AssemblyThreads, KindsOfElementsBesideEachOtherAreTheSame) {

@@ -112,6 +112,16 @@ struct Held {
   }
 };
 
+/// A curved and twisted grid of 36 x 30 quad4: several pieces of an assembly, 6882 variables.
+inline Structure twisted_shells(const Material& material) {
+  const ShellSection section = ShellSection::homogeneous(material, 0.002, 0.001);
+  return ShellGrid(ShellKind::quad4, 36, 30, section,
+                   [](double x, double y) {
+                     return Eigen::Vector3d(0.6 * x, 0.4 * y, 0.1 * x * y + 0.05 * std::sin(9 * x));
+                   })
+      .structure;
+}
+
 /// Nodal forces of a load per area, model axes.
 inline linalg::Vector area_load(const FeModel& fe, const ShellBlock& shells,
                                 const Eigen::Vector3d& per_area) {
