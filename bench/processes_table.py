@@ -4,23 +4,12 @@
 import math
 import pathlib
 
+import numpy
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 RESULTS = ROOT / "docs/developers/several_processes.json"
 PAGE = ROOT / "docs/developers/several-processes.md"
 BEGIN, END = "<!-- processes:begin -->", "<!-- processes:end -->"
-
-
-def least_squares(rows, right):
-    """x of least ‖A x − b‖, from the normal equations of a few unknowns."""
-    size = len(rows[0])
-    A = [[sum(row[i] * row[j] for row in rows) for j in range(size)] + [sum(row[i] * b for row, b in zip(rows, right))] for i in range(size)]
-    for k in range(size):
-        pivot = max(range(k, size), key=lambda i: abs(A[i][k]))
-        A[k], A[pivot] = A[pivot], A[k]
-        for i in range(size):
-            if i != k:
-                A[i] = [a - A[i][k] / A[k][k] * b for a, b in zip(A[i], A[k])]
-    return [A[k][size] / A[k][k] for k in range(size)]
 
 
 class Law:
@@ -28,7 +17,8 @@ class Law:
 
     def __init__(self, rows, value):
         known = [(math.log(row["variables"]), math.log(row["processes"]), math.log(value(row))) for row in rows]
-        self.a, self.of_variables, self.of_processes = least_squares([[1.0, n, p] for n, p, _ in known], [v for _, _, v in known])
+        columns = numpy.array([[1.0, n, p] for n, p, _ in known])
+        self.a, self.of_variables, self.of_processes = numpy.linalg.lstsq(columns, numpy.array([v for _, _, v in known]), rcond=None)[0]
         self.worst = max(math.exp(abs(self.a + self.of_variables * n + self.of_processes * p - v)) for n, p, v in known)
 
     def __call__(self, variables, processes):
