@@ -4,10 +4,10 @@
     bench/several_processes.py PROGRAM --side 31 --processes 1 2 4
     bench/several_processes.py                                      writes the tables again
 
-Adds the runs to docs/developers/several_processes.json and writes the tables of docs/developers/several-processes.md. One process has the factor of
-the program itself; `--mumps` lets it use MUMPS, too. Times are wall times: several processes on fewer processors share them. Messages and bytes are
-those of all processes, MUMPS included, as Open MPI counts them (its component `monitoring`); those of a step are the difference of a long and a short
-run.
+Adds the runs to docs/developers/several_processes.json and writes the tables of docs/developers/several-processes.md; with `--into FILE`, only to that
+file. One process has the factor of the program itself; `--mumps` lets it use MUMPS, too. Times are wall times: several processes on fewer processors
+share them. Messages and bytes are those of all processes, MUMPS included, as Open MPI counts them (its component `monitoring`); those of a step are the
+difference of a long and a short run.
 """
 
 import argparse
@@ -139,7 +139,8 @@ def main():
         print("| {variables} | {processes} | {solver} | {setup_seconds:.1f} | {solve_seconds:.3f} | {step_seconds:.3f} | ".format(**row)
               + " | ".join(", ".join(f"{m / 1e9:.2f}" for m in row[key]) for key in ("peak_bytes", "peak_bytes_in_shares", "stepping_bytes"))
               + " | {messages_per_step:.0f} | {0:.2f} |".format(row["bytes_per_step"] / 1e6, **row), flush=True)
-    processes_table.write(rows)
+    if arguments.into == processes_table.RESULTS:
+        processes_table.write(rows)
 
 
 if __name__ == "__main__":
